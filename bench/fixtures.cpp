@@ -1,0 +1,191 @@
+#include "fixtures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "form_factor/lambert.hpp"
+#include "form_factor/reference.hpp"
+#include "geometry/validate.hpp"
+#include "network/general_pairs.hpp"
+#include "network/random.hpp"
+#include "scene/builtin.hpp"
+#include "weights/cube7.h"
+#include "weights/general.h"
+
+namespace fixtures {
+
+namespace {
+
+using host::Polygon;
+using host::Random;
+using host::Vec3;
+
+constexpr std::uint64_t kSeed = 1996;
+constexpr int kPerDecade = 1000;
+constexpr std::array kDecades = {1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
+constexpr int kRoomPairs = 5000;
+
+PairSet cube_pairs() {
+  PairSet set;
+  const host::Scene& scene = set.scenes.emplace_back(host::load_scene("cube7"));
+  const host::FixedScene& fixed = set.fixed.emplace_back(scene);
+  for (std::uint16_t i = 0; i < scene.patches.size(); ++i) {
+    for (std::uint16_t j = 0; j < i; ++j) {
+      const host::ScenePatch &a = scene.patches[i], &b = scene.patches[j];
+      if (a.surface == b.surface) continue;
+      const double exchange = host::reference_exchange(a.polygon, b.polygon);
+      set.pairs.push_back({&a.polygon, &b.polygon, &fixed, i, j, exchange / a.moments.area});
+      set.pairs.push_back({&b.polygon, &a.polygon, &fixed, j, i, exchange / b.moments.area});
+    }
+  }
+  return set;
+}
+
+void add(PairSet* set, const Polygon& p, const Polygon& q, double exact) {
+  const Polygon& kept_p = set->polygons.emplace_back(p);
+  const Polygon& kept_q = set->polygons.emplace_back(q);
+  const host::FixedScene& fixed = set->fixed.emplace_back(host::FixedScene::of_polygons({p, q}, {}));
+  set->pairs.push_back({&kept_p, &kept_q, &fixed, 0, 1, exact});
+}
+
+/// Four corners by a random walk about a random plane; empty when it leaves the unit cube, crosses itself or is a sliver.
+Polygon random_quad(Random& random) {
+  Vec3 x(random.uniform(), random.uniform(), random.uniform());
+  const auto direction = [&] { return glm::normalize(Vec3(random.normal(), random.normal(), random.normal())); };
+  const Vec3 normal = direction(), u = glm::normalize(glm::cross(normal, direction())), v = glm::cross(normal, u);
+  const double step = random.log_uniform(0.02, 1);
+  Polygon quad;
+  for (int k = 0; k < 4; ++k, x += step * (random.uniform(-1, 1) * u + random.uniform(-1, 1) * v)) quad.outer.push_back(x);
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 corner = quad.outer[std::size_t(k)];
+    if (glm::any(glm::lessThan(corner, Vec3(0))) || glm::any(glm::greaterThan(corner, Vec3(1)))) return {};
+    if (glm::distance(corner, quad.outer[std::size_t(k + 1) % 4]) < 0.01) return {};
+  }
+  return host::validate(quad) == host::PolygonStatus::ok && host::moments(quad).area >= 1e-4 ? quad : Polygon{};
+}
+
+/// -1, 0, 1: `quad` lies behind, across or in front of the plane of `plane`.
+int side(const Polygon& quad, const host::Moments& plane) {
+  constexpr double kMargin = 1e-3;
+  int front = 0, behind = 0;
+  for (const Vec3& x : quad.outer) {
+    const double distance = glm::dot(plane.normal, x - plane.centroid);
+    front += distance > kMargin;
+    behind += distance < -kMargin;
+  }
+  return front == 4 ? 1 : behind == 4 ? -1 : 0;
+}
+
+std::size_t decade_of(double f) {
+  return std::size_t(std::upper_bound(kDecades.begin(), kDecades.end(), f) - kDecades.begin());
+}
+
+PairSet free_pairs() {
+  PairSet set;
+  Random random(kSeed);
+  std::array<int, kDecades.size() + 1> count{};
+  const auto full = [&](double f) {
+    const std::size_t decade = decade_of(f);
+    return decade == 0 || decade == kDecades.size() || count[decade] == kPerDecade;
+  };
+  while (set.pairs.size() < kPerDecade * (kDecades.size() - 1)) {
+    Polygon p = random_quad(random), q = random_quad(random);
+    if (p.outer.empty() || q.outer.empty()) continue;
+    const int p_side = side(p, host::moments(q)), q_side = side(q, host::moments(p));
+    if (p_side == 0 || q_side == 0) continue;
+    if (p_side < 0) std::reverse(q.outer.begin(), q.outer.end());  // the sides that face each other are lit
+    if (q_side < 0) std::reverse(p.outer.begin(), p.outer.end());
+    const double about = host::lambert_estimate(p, q, 1).f;  // saves the reference where nothing is wanted any more
+    if (full(about) && full(about / 2) && full(about * 2)) continue;
+    const double exact = host::reference_form_factor(p, q);
+    if (full(exact)) continue;
+    ++count[decade_of(exact)];
+    add(&set, p, q, exact);
+  }
+  return set;
+}
+
+PairSet room_pairs() {
+  PairSet set;
+  const std::uint64_t seed = host::general_seed(kSeed, host::PairUse::test);
+  for (std::uint64_t k = 0; set.pairs.size() < kRoomPairs; ++k) {
+    const host::PolygonPair pair = host::general_pair(host::PairFamily::room, seed, k);
+    const double exact = host::reference_form_factor(pair.p, pair.q);
+    if (exact > 0) add(&set, pair.p, pair.q, exact);
+  }
+  return set;
+}
+
+const urad_net* shipped(const std::string& name) {
+  return name == "general" ? &urad_general : name == "cube7" ? &urad_cube7 : nullptr;
+}
+
+}  // namespace
+
+const host::NetChoice& nets() {
+  static const host::NetChoice choice{shipped, nullptr};
+  return choice;
+}
+
+const PairSet& pair_set(const std::string& name) {
+  static std::map<std::string, PairSet> sets;
+  const auto found = sets.find(name);
+  if (found != sets.end()) return found->second;
+  PairSet& set = sets[name] = name == "cube" ? cube_pairs() : name == "free" ? free_pairs() : room_pairs();
+  Random random(kSeed);
+  random.shuffle(set.pairs);
+  return set;
+}
+
+host::SceneSolver& solver(const std::string& scene) {
+  static std::map<std::string, host::Scene> scenes;
+  static std::map<std::string, host::SceneSolver> solvers;
+  const auto found = solvers.find(scene);
+  if (found != solvers.end()) return found->second;
+  scenes.emplace(scene, host::load_scene(scene));
+  return solvers.emplace(std::piecewise_construct, std::forward_as_tuple(scene),
+                         std::forward_as_tuple(scenes.at(scene), 0, true)).first->second;
+}
+
+Errors errors(const std::vector<Pair>& pairs, const std::vector<double>& factors) {
+  std::vector<double> relative;
+  double squares = 0, most = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double error = std::fabs(factors[k] - pairs[k].exact);
+    relative.push_back(error / pairs[k].exact);
+    squares += error * error;
+    most = std::max(most, error);
+  }
+  std::sort(relative.begin(), relative.end());
+  const auto quantile = [&](double share) { return relative[std::size_t(share * double(relative.size() - 1) + 0.5)]; };
+  return {quantile(0.5), quantile(0.95), quantile(0.99), std::sqrt(squares / double(pairs.size())), most};
+}
+
+void show(benchmark::State& state, const Errors& errors) {
+  state.counters["rel_median"] = errors.median;
+  state.counters["rel_p95"] = errors.p95;
+  state.counters["rel_p99"] = errors.p99;
+  state.counters["rms"] = errors.rms;
+  state.counters["max"] = errors.max;
+}
+
+const std::optional<host::InstructionCounts>& instructions() {
+  static const auto counts = [] {
+    const char* named = std::getenv("URAD_ICOUNT");
+    const std::string path = named ? named : URAD_SOURCE_DIR "/build/icount.json";
+    std::optional<host::InstructionCounts> read;
+    if (named || std::filesystem::exists(path)) read.emplace(path);
+    return read;
+  }();
+  return counts;
+}
+
+void show_instructions(benchmark::State& state, const char* counter, std::optional<double> count) {
+  if (count) state.counters[counter] = *count;
+}
+
+}  // namespace fixtures

@@ -1,0 +1,28 @@
+// clip.hpp -- what of a patch lies in front of a plane: the moments of the part that is left, no
+// vertex list kept.
+#pragma once
+#include "urad/patch.hpp"
+
+namespace urad {
+
+enum class Side : uint8_t { behind, front, both };
+
+/// Where the patch lies relative to the plane through `on`; "on the plane" (kPlaneTolerance) counts
+/// as either.
+Side side_of_plane(const urad_scene& scene, const Patch& patch, const urad_point& on,
+                   const urad_point& normal_q30) noexcept;
+
+/// The same for a whole surface: a grid by its four corners; a polygon list answers `both` unless
+/// asked patch by patch.
+Side side_of_plane(const urad_scene& scene, const urad_surface& surface, const urad_point& on,
+                   const urad_point& normal_q30) noexcept;
+
+/// Moments of the part of `patch` in front of the plane. The fan's centre is a point of the cut, so
+/// the closing edges add nothing and one pass over the vertices is enough (Green's theorem on the
+/// polygon's dominant plane). False, nothing written, when no area is left.
+///   Error   crossings 3e-6 of their edge, area 1e-5, spread 1e-3 of what is left (measured:
+///   tests/clip_fixed_test.cpp)
+bool clipped_shape(const urad_scene& scene, const Patch& patch, const urad_point& on,
+                   const urad_point& normal_q30, urad_shape* shape, urad_point* centroid) noexcept;
+
+}  // namespace urad

@@ -1,0 +1,60 @@
+// form_factor.hpp -- unoccluded form factors of patch pairs, by kernel or network, and the source
+// that fills runs.
+//
+//   F_ij = 1/A_i int_{A_i} int_{A_j} cos(t_i) cos(t_j) / (pi r^2) dA_j dA_i          [Martin 1996,
+//   Eq. 1.1]
+//
+// The exchange G = A_i F_ij = A_j F_ji is one integer per unordered pair: log2 G in Q7.24.
+// Reciprocity is exact on it.
+#pragma once
+#include "urad/net.h"
+#include "urad/pair.hpp"
+#include "urad/source.h"
+
+namespace urad {
+
+enum class Kernel : uint8_t { centre, moment };
+
+/// "No exchange": facing away, coplanar, or nothing left after the cut.
+inline constexpr int32_t kNoExchange = INT32_MIN;
+
+/// Which skips are switched OFF (for tests): the factors keep their bits, the counters change.
+enum SkipOff : uint32_t { skip_off_far = 1, skip_off_facing = 2, skip_off_same = 4 };
+
+/// Invariants of two patches of the scene after each was cut to the other's front half-space.
+/// *limit_q24: log2 of the smaller area left, which G cannot exceed. False when they exchange no
+/// light; the outputs are then undefined.
+bool clipped_pair(const urad_scene& scene, const Patch& i, const Patch& j, Pair* pair,
+                  int32_t* limit_q24, bool* clipped) noexcept;
+
+/// log2 G of two patches of the scene (Q7.24, square scene units), or kNoExchange. net null: the
+/// kernel alone; else the net's correction of it. Repair is not applied. Counts the pair as
+/// evaluated or skipped_facing.
+int32_t exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j, Kernel kernel,
+                          const urad_net* net, uint32_t skips_off,
+                          urad_counters* counters) noexcept;
+
+/// The same for two patches known to lie wholly in front of each other's plane: the looks at every
+/// vertex are saved.
+int32_t exchange_in_front_q24(const Patch& i, const Patch& j, Kernel kernel, const urad_net* net,
+                              uint32_t skips_off, urad_counters* counters) noexcept;
+
+/// F = G / A as UQ0.32, rounded, saturating at 2^32 - 1.
+uint32_t form_factor_uq32(int32_t log2_exchange_q24, int32_t log2_area_q24) noexcept;
+
+/// A source (source.h) that evaluates pairs, times the visible fraction by rays where the scene is
+/// not convex.
+struct PairSource {
+  const urad_scene* scene;
+  const urad_net* net;  ///< null: kernel alone
+  Kernel kernel;
+  uint16_t rays;            ///< visibility rays per pair; 0: ignore blockers
+  uint32_t skips_off;       ///< SkipOff bits
+  urad_counters* counters;  ///< never null
+};
+
+/// urad_fill for a PairSource: bad_argument on a bad index, else ok.
+urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uint16_t first,
+                      uint16_t count, uint32_t* f_uq32) noexcept;
+
+}  // namespace urad

@@ -1,0 +1,178 @@
+/* urad.h -- the C interface of the engine. C99; C++ programs may use it, or the .hpp files.
+ *
+ * A solve in a few lines (status codes left out):
+ *
+ *   static uint64_t pairs[8];                                  at least urad_pair_source_bytes()
+ *   static uint32_t light[URAD_RADIOSITY_BYTES(294, 49) / 4];  patches, patches a surface
+ *   urad_counters counters = {0};
+ *   urad_source source;
+ *   urad_radiosity state;
+ *   urad_pair_source_init(&source, &scene, URAD_KERNEL_MOMENT, &net, 0, &counters, pairs,
+ *                         sizeof pairs);
+ *   urad_radiosity_init(&state, &scene, &source, URAD_OVERSHOOT, 49, light, sizeof light);
+ *   while (!urad_radiosity_done(&state, URAD_PERCENT)) urad_radiosity_step(&state);
+ *   urad_radiosity_get(&state, patch, 0, &red);
+ *
+ * For every function:
+ *
+ *   Pointers  may be null only where the text says so; null gives URAD_BAD_ARGUMENT, or 0 where no
+ *             status is returned. Objects behind pointers to const are not written. "Kept": the
+ *             object must outlive the one that keeps a pointer to it.
+ *   Failure   any status but URAD_OK: nothing was written, unless the text says otherwise.
+ *   Memory    is the caller's, none is allocated. There is no global state: threads may work on
+ *             different objects at once.
+ *   Data      scenes and nets are trusted once urad_scene_check() and urad_net_check() have passed;
+ *             the other functions do not look again.
+ *   Formats   are in the names: _uq32 has 32 fraction bits, 4294967296 = 1. No floats.
+ */
+#ifndef URAD_URAD_H
+#define URAD_URAD_H
+#include <stddef.h>
+#include <stdint.h>
+
+#include "urad/net.h"
+#include "urad/radiosity.h"
+#include "urad/scene.h"
+#include "urad/source.h"
+#include "urad/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- data ---------------------------------------------------------------------------------- */
+
+/* Walks all tables of a scene: counts, ranges, null pointers, unit normals, materials. URAD_OK, or
+ * URAD_BAD_SCENE; a null scene is URAD_BAD_SCENE too. Tables must be as long as the counts say. */
+urad_status urad_scene_check(const urad_scene* scene);
+
+/* Checks a net: ABI, sizes, shifts, accumulators that cannot overflow, CRC-32. URAD_OK, or
+ * URAD_BAD_NET; a null net is URAD_BAD_NET too. */
+urad_status urad_net_check(const urad_net* net);
+
+/* ---- form factors -------------------------------------------------------------------------- */
+
+enum { URAD_KERNEL_CENTRE = 0, URAD_KERNEL_MOMENT = 1 };
+#define URAD_RAYS_MAX 1024
+
+/* Form factor F from patch `from` to patch `to`, as a pair source gives it to a solver.
+ *   from, to  below scene->patch_count; from = to gives 0
+ *   kernel    URAD_KERNEL_*
+ *   net       may be null: the kernel alone
+ *   rays      visibility rays, 0 .. URAD_RAYS_MAX; 0: blockers are ignored. None if convex.
+ *   f_uq32    one value, UQ0.32, saturating at 2^32 - 1; written on success
+ *   counters  may be null; else counts are added to it
+ * Failure: URAD_BAD_ARGUMENT. */
+urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to, unsigned kernel,
+                             const urad_net* net, uint16_t rays, uint32_t* f_uq32,
+                             urad_counters* counters);
+
+/* ---- sources: where a solver gets its factors from
+ * --------------------------------------------------------------- */
+/* Each init function lays an object out in `memory` and writes a urad_source that works on it.
+ *   memory   aligned like a uint64_t, `bytes` long, at least the matching *_bytes()
+ *   kept     memory, scene, net, counters, and what they point to
+ * Failure: URAD_BAD_ARGUMENT, URAD_OUT_OF_MEMORY (too few bytes, or misaligned). */
+
+size_t urad_pair_source_bytes(void);
+
+/* Kernel or network for every pair, as urad_form_factor(). net may be null; counters may not. */
+urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, unsigned kernel,
+                                  const urad_net* net, uint16_t rays, urad_counters* counters,
+                                  void* memory, size_t bytes);
+
+/* Delta form factors of a quadrant of the top and of half a side, UQ0.32, [R/2 * R/2] each;
+ * R = resolution, even, 16 .. 128. The exporter writes them as arrays. */
+typedef struct urad_hemicube_table {
+  uint16_t resolution;
+  const uint32_t* top;
+  const uint32_t* side;
+} urad_hemicube_table;
+
+enum {
+  URAD_HEMICUBE_TURNED = 1,  /* turned by an angle that differs by patch: half the aliasing */
+  URAD_HEMICUBE_COVERAGE = 2 /* keep what each patch would cover alone, for a hybrid source */
+};
+
+/* Bytes for a hemicube source on this scene. rows: height of a band of the item buffer, 1 ..
+ * resolution; 0: none (convex scenes only). flags: URAD_HEMICUBE_*. 0 if scene is null. */
+size_t urad_hemicube_source_bytes(const urad_scene* scene, uint16_t resolution, uint16_t rows,
+                                  unsigned flags);
+
+/* A hemicube on the centre of the shooter, rendered when a new shooter is asked for.
+ *   table  copied; its two arrays are kept
+ *   rows   height of a band of the item buffer, 1 .. resolution, the same bits for all;
+ *          0: none, for convex scenes only
+ *   flags  URAD_HEMICUBE_* */
+urad_status urad_hemicube_source_init(urad_source* source, const urad_scene* scene,
+                                      const urad_hemicube_table* table, uint16_t rows,
+                                      unsigned flags, urad_counters* counters, void* memory,
+                                      size_t bytes);
+
+size_t urad_hybrid_source_bytes(void);
+
+/* Visibility from a hemicube source, magnitude from kernel or network.
+ *   hemicube       from urad_hemicube_source_init(), with URAD_HEMICUBE_COVERAGE unless convex.
+ *                  The hybrid uses its memory from now on; the urad_source is not kept.
+ *   net            may be null: the kernel alone
+ *   rays           1 .. URAD_RAYS_MAX, for receivers that cover no cell
+ *   near_rho_uq16  0: all pairs. Else only pairs whose (tr M_i + tr M_j) / R^2 is above it; 1365 is
+ *                  four patches from centre to centre, for equal squares. */
+urad_status urad_hybrid_source_init(urad_source* source, const urad_source* hemicube,
+                                    unsigned kernel, const urad_net* net, uint16_t rays,
+                                    uint32_t near_rho_uq16, void* memory, size_t bytes);
+
+/* ---- radiosity: progressive refinement
+ * --------------------------------------------------------------------------- */
+
+#define URAD_PERCENT 42949673u /* 1 % as UQ0.32, for urad_radiosity_done() */
+
+/* Patches of the largest surface; 0 if scene is null. */
+uint16_t urad_longest_run(const urad_scene* scene);
+
+/* Starts a solve.
+ *   state   written on success; plain data, may be copied while memory stays where it is
+ *   scene   kept
+ *   source  copied; its context is kept. Any function that fills runs will do.
+ *   flags   URAD_OVERSHOOT and URAD_SKIP_OFF_*
+ *   run     1 .. 65535 factors asked for at a time. Fewer than urad_longest_run() cost calls, not
+ *           accuracy: the light has the same bits.
+ *   memory  4-byte aligned, bytes >= URAD_RADIOSITY_BYTES(scene->patch_count, run); kept
+ * Failure: URAD_BAD_ARGUMENT, URAD_BAD_SCENE (no patch), URAD_OUT_OF_MEMORY (too few bytes, or
+ * misaligned), URAD_OVERFLOW (a patch that emits URAD_POWER_LIMIT or more). */
+urad_status urad_radiosity_init(urad_radiosity* state, const urad_scene* scene,
+                                const urad_source* source, unsigned flags, uint16_t run,
+                                void* memory, size_t bytes);
+
+/* One shot, from the patch with the largest unshot power. With nothing unshot: URAD_OK and nothing
+ * done. Null: URAD_BAD_ARGUMENT. After any other failure the state is whole and its ledger holds:
+ *   of the source  what was handed out before stays; step may be called again, B keeps the error
+ *   URAD_OVERFLOW  a patch has reached URAD_POWER_LIMIT; nothing wrapped; the status stays
+ *   URAD_DIVERGES  over patch_count shots (with URAD_OVERSHOOT, over that four times in a row) the
+ *                  unshot power fell by less than 1/4096; the status stays */
+urad_status urad_radiosity_step(urad_radiosity* state);
+
+/* 1 when the estimated relative error of B is at most error_uq32 (URAD_PERCENT), or the solve has
+ * stopped with a status, or state is null: a loop `while (!done) step` always ends. Else 0. */
+int urad_radiosity_done(const urad_radiosity* state, uint32_t error_uq32);
+
+/* The estimate: what is still to be reflected over all that will be, UQ0.32. 0 if state is null. */
+uint32_t urad_radiosity_error_uq32(const urad_radiosity* state);
+
+/* Radiosity B of a patch in channel 0 .. 2, in the scene's exitance unit, saturating, to *exitance.
+ * URAD_BAD_ARGUMENT: patch or channel out of range. */
+urad_status urad_radiosity_get(const urad_radiosity* state, uint16_t patch, unsigned channel,
+                               int32_t* exitance);
+
+/* The same plus reflectance times the ambient term: for pictures before the solve is done. */
+urad_status urad_radiosity_display(const urad_radiosity* state, uint16_t patch, unsigned channel,
+                                   int32_t* exitance);
+
+/* 1 when emitted = absorbed + unshot + escaped in every channel, with unshot summed again from the
+ * patches; else 0, also for a null state. ledger: may be null; else written. */
+int urad_radiosity_audit(const urad_radiosity* state, urad_ledger* ledger);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,28 @@
+// vec.hpp -- points in scene units and unit vectors: differences, products, distances from a plane.
+#pragma once
+#include "urad/q.hpp"
+#include "urad/scene.h"
+
+namespace urad {
+
+/// a - b. |coordinates| <= 2^29 each, so the result fits in 31 bits.
+constexpr urad_point operator-(const urad_point& a, const urad_point& b) noexcept {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/// Sum of products, exact in 64 bits while |a| |b| < 2^63.
+constexpr int64_t dot(const urad_point& a, const urad_point& b) noexcept {
+  return int64_t{a.x} * b.x + int64_t{a.y} * b.y + int64_t{a.z} * b.z;
+}
+
+/// Signed distance of `x` from the plane through `on` with this normal, in scene units, rounded.
+constexpr int32_t plane_distance(const urad_point& normal_q30, const urad_point& on,
+                                 const urad_point& x) noexcept {
+  return int32_t(round_shift(dot(normal_q30, x - on), 30));
+}
+
+/// Distances up to this count as "on the plane". A coordinate is off by half a unit, the normal by
+/// 2^-31 of at most 2^30 units, both on two points: below 4 scene units, 2^-27 of the scene's box.
+inline constexpr int32_t kPlaneTolerance = 4;
+
+}  // namespace urad

@@ -1,0 +1,36 @@
+// visibility.hpp -- which part of what two patches would exchange gets past the blockers, by rays.
+#pragma once
+#include "urad/patch.hpp"
+#include "urad/source.h"
+
+namespace urad {
+
+inline constexpr uint16_t kMaxRays = 1024;
+inline constexpr uint32_t kAllVisible_uq16 = 65536;
+
+/// True when the blocker stands across the segment from a to b. A blocker whose plane contains an
+/// end point to within kPlaneTolerance never does, so that neither a patch's own surface nor a wall
+/// it touches blocks it. A ray that would be blocked if it were moved by two scene units is
+/// blocked: none slips between polygons that share an edge.
+///   Precision   sides exact in 64 bits; the point of crossing to one scene unit (30-bit quotient)
+bool blocks(const urad_scene& scene, const urad_blocker& blocker, const urad_point& a,
+            const urad_point& b) noexcept;
+
+/// rho = (tr M_i + tr M_j) / R^2 above this (UQ16.16, not 0), by log2 to 1e-5. Patches with one
+/// centre are close.
+bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept;
+
+/// Fraction of the light exchanged by patches i and j that passes all blockers, UQ16.16: 0 exactly
+/// when every ray is blocked, 65536 when none is. `rays` (1 .. kMaxRays, clamped) segments join
+/// points of a four-dimensional additive sequence (Roberts's R4), moved by an offset that depends
+/// on the pair; the same for (i, j) and (j, i). `weighted` weighs a ray by cos cos / r^2: the
+/// fraction of the form factor, not of the rays. Where patches may touch (rho > 1/16) the sum of
+/// all weights has no bounded variance: its part below the distance sqrt(S/2), S the sum of the two
+/// tr M, then comes from 8 more rays each that leave by the cosine law and meet no blocker.
+/// Segments that leave or meet a patch from behind count for nothing; 65536 when none is left.
+/// Blockers that cannot reach between the patches are left out beforehand, and when none remains no
+/// ray is made; counters->rays counts the rays asked for all the same.
+uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
+                               uint16_t rays, bool weighted, urad_counters* counters) noexcept;
+
+}  // namespace urad

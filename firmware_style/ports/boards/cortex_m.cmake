@@ -1,0 +1,11 @@
+# What all Cortex-M boards share; a board file sets its own facts and includes this.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR arm)
+set(CMAKE_C_COMPILER arm-none-eabi-gcc)
+set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
+set(CMAKE_C_FLAGS_INIT "${BOARD_FLAGS} -mthumb")
+set(CMAKE_CXX_FLAGS_INIT "${BOARD_FLAGS} -mthumb")
+set(BOARD_STARTUP startup_cortex_m.c)
+set(BOARD_SCRIPT cortex_m.ld.in)

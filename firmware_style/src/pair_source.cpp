@@ -1,0 +1,72 @@
+#include "urad/clip.hpp"
+#include "urad/form_factor.hpp"
+#include "urad/log2.hpp"
+#include "urad/visibility.hpp"
+
+namespace urad {
+
+namespace {
+
+/// What one look at two surfaces tells of all pairs of the run.
+Side facing(const urad_scene& scene, const Patch& shooter, const urad_surface& surface) noexcept {
+  const Side receivers = side_of_plane(scene, surface, shooter.centroid, shooter.shape->normal_q30);
+  if (receivers == Side::behind || !(surface.flags & URAD_SURFACE_PLANAR))
+    return receivers == Side::behind ? receivers : Side::both;
+  const Patch receiver = patch_at(scene, surface.first_patch);
+  const Side back = side_of_plane(scene, shooter, receiver.centroid, receiver.shape->normal_q30);
+  return back == Side::front ? receivers : back;
+}
+
+urad_status no_light(uint32_t* f_uq32, uint16_t count) noexcept {
+  for (uint16_t k = 0; k < count; ++k) f_uq32[k] = 0;
+  return URAD_OK;
+}
+
+int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
+  return scene.log2_scale_q24 ? scene.log2_scale_q24[patch] : 0;
+}
+
+}  // namespace
+
+urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uint16_t first,
+                      uint16_t count, uint32_t* f_uq32) noexcept {
+  const PairSource& source = *static_cast<const PairSource*>(pair_source);
+  const urad_scene& scene = *source.scene;
+  const urad_surface& to = scene.surface[surface];
+  const Patch from = patch_at(scene, shooter);
+  const bool same = from.surface == &to && (to.flags & URAD_SURFACE_PLANAR);
+  if (same && !(source.skips_off & skip_off_same)) {
+    const bool holds_shooter = shooter >= first && shooter - first < count;
+    source.counters->skipped_same += uint32_t(count - holds_shooter);
+    return no_light(f_uq32, count);
+  }
+  const Side side = same ? Side::both : facing(scene, from, to);
+  if (side == Side::behind && !(source.skips_off & skip_off_facing)) {
+    source.counters->skipped_facing += count;
+    return no_light(f_uq32, count);
+  }
+  Patch receiver = patch_at(scene, first);
+  for (uint16_t k = 0; k < count; ++k) {
+    f_uq32[k] = 0;
+    if (receiver.index != shooter) {
+      int32_t log2_g_q24 = side == Side::front
+                               ? exchange_in_front_q24(from, receiver, source.kernel, source.net,
+                                                       source.skips_off, source.counters)
+                               : exchange_log2_q24(scene, from, receiver, source.kernel, source.net,
+                                                   source.skips_off, source.counters);
+      if (log2_g_q24 != kNoExchange) {
+        log2_g_q24 += scale_q24(scene, shooter) + scale_q24(scene, receiver.index);
+        f_uq32[k] = form_factor_uq32(log2_g_q24, from.shape->log2_area_q24);
+        if (source.rays && !(scene.flags & URAD_SCENE_CONVEX)) {
+          const uint32_t seen_uq16 =
+              visible_fraction_uq16(scene, from, receiver, source.rays, true, source.counters);
+          f_uq32[k] = uint32_t((uint64_t{f_uq32[k]} * seen_uq16 + 0x8000u) >> 16);
+        }
+      }
+    }
+    if (k + 1 < count) patch_advance(&receiver);
+  }
+  return URAD_OK;
+}
+
+}  // namespace urad

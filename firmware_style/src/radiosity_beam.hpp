@@ -1,0 +1,96 @@
+// radiosity_beam.hpp -- the inner loops of a shot: sums of factors, and power on its way to a
+// surface.
+#pragma once
+#include "urad/q.hpp"
+
+namespace urad {
+
+constexpr uint32_t kRounded = 256;  // shots of fewer power units are cut, not rounded
+
+/// The power of one shot in one channel: negative ? -p : p, p = mantissa * 2^exponent.
+struct Beam {
+  uint32_t mantissa;  // below 2^15
+  int exponent;       // 0 .. 15
+  bool negative;
+  int64_t reflected;  // sum of what receivers got, as a magnitude
+};
+
+/// What one channel of a beam is to a surface: received times reflectance = F * mantissa / 2^16 /
+/// 2^shift.
+struct Reflection {
+  uint32_t mantissa;  // at most 2^15
+  uint32_t shift;     // 0 .. 31
+  uint32_t sum;       // F * mantissa / 2^16 over the receivers so far
+};
+
+inline Beam beam_of(int32_t power) noexcept {
+  const uint32_t p = magnitude(power);
+  const int leading = top_bit(p) - 14, exponent = leading > 0 ? leading : 0;
+  return {p >> exponent, exponent, power < 0, 0};
+}
+
+inline Reflection reflection_of(const Beam& beam, uint16_t reflectance_uq15,
+                                uint32_t shots) noexcept {
+  const uint32_t product = beam.mantissa * reflectance_uq15;
+  const int leading = top_bit(product) - 14, cut = leading > 0 ? leading : 0;
+  // Fractions of shots times the golden ratio: spread evenly, however few shots share a rounding
+  // error.
+  const uint32_t dither = cut ? (shots * 0x9E3779B9u) >> (32 - cut) : 0;
+  // Half a unit rounds; without it the light of the last, tiny shots dies out instead of going
+  // round for ever.
+  const uint32_t shift = uint32_t(31 - beam.exponent - cut);
+  const uint32_t sum = beam.mantissa >= kRounded ? (uint32_t{1} << shift) >> 1 : 0;
+  return {(product + dither) >> cut, shift, sum};
+}
+
+/// Adds (or takes away) F * reflection in one channel of `count` receivers; returns the sum. The
+/// inner loop of the solver: whole units are differences of a running sum, so that rests carry on.
+///
+/// No overflow: rows sum to less than 1.5 and the mantissa is at most 2^15, so that F * mantissa /
+/// 2^16 adds up to less than 1.5 * 2^31, and what the sum starts with is at most 2^30. Powers are
+/// seen as unsigned because the difference is taken in two steps, the first of which may wrap.
+template <bool kNegative>
+[[gnu::noinline]] uint32_t reflect(const uint32_t* f_uq32, uint32_t count, int32_t* unshot,
+                                   Reflection* to) noexcept {
+  const uint32_t* const end = f_uq32 + count;
+  const uint32_t m = to->mantissa, shift = to->shift, start = to->sum;
+  uint32_t* power = reinterpret_cast<uint32_t*>(unshot);
+  uint32_t sum = start, units = start >> shift;
+  do {
+    const uint32_t f = *f_uq32++;
+    sum += ((f & 0xFFFFu) * m) >> 16;
+    sum += (f >> 16) * m;
+    const uint32_t without = kNegative ? *power + units : *power - units;
+    units = sum >> shift;
+    *power = kNegative ? without - units : without + units;
+    power += 3;
+  } while (f_uq32 != end);
+  to->sum = sum;
+  return units - (start >> shift);
+}
+
+/// A sum of up to 65,535 32-bit numbers, kept as sums of their halves: no carry to follow.
+struct WideSum {
+  uint32_t low = 0, high = 0;
+  [[gnu::always_inline]] void add(uint32_t x) noexcept {
+    low += x & 0xFFFFu;
+    high += x >> 16;
+  }
+  uint64_t value() const noexcept { return (uint64_t{high} << 16) + low; }
+};
+
+[[gnu::noinline]] inline uint64_t sum_run(const uint32_t* f_uq32, uint32_t count) noexcept {
+  WideSum sum;
+  for (const uint32_t* const end = f_uq32 + count; f_uq32 != end;) sum.add(*f_uq32++);
+  return sum.value();
+}
+
+/// Lets through what is left of a row, in the order of the patches.
+inline void cut_run(uint32_t* f_uq32, uint32_t count, uint64_t left_uq32) noexcept {
+  for (uint32_t k = 0; k < count; ++k) {
+    if (f_uq32[k] > left_uq32) f_uq32[k] = uint32_t(left_uq32);
+    left_uq32 -= f_uq32[k];
+  }
+}
+
+}  // namespace urad

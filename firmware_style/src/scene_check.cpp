@@ -1,0 +1,117 @@
+#include "urad/patch.hpp"
+#include "urad/vec.hpp"
+
+namespace urad {
+
+namespace {
+
+constexpr uint32_t kCoordinateMax = URAD_COORDINATE_MAX;
+constexpr int32_t kLog2Max = 64 << 24;
+
+bool inside(const urad_point& p) noexcept {
+  return magnitude(p.x) <= kCoordinateMax && magnitude(p.y) <= kCoordinateMax &&
+         magnitude(p.z) <= kCoordinateMax;
+}
+
+/// |n| = 1 within 2^-20.
+bool unit(const urad_point& n) noexcept {
+  constexpr uint32_t one = uint32_t{1} << 30;
+  if (magnitude(n.x) > one || magnitude(n.y) > one || magnitude(n.z) > one) return false;
+  const int64_t off = dot(n, n) - (int64_t{1} << 60);
+  return magnitude(off) <= uint64_t{1} << 40;
+}
+
+bool good(const urad_shape& shape) noexcept {
+  if (!unit(shape.normal_q30)) return false;
+  if (magnitude(shape.log2_area_q24) > uint32_t(kLog2Max)) return false;
+  if (magnitude(shape.log2_spread_q24) > uint32_t(kLog2Max)) return false;
+  const int32_t trace = shape.spread_q15[0] + shape.spread_q15[1] + shape.spread_q15[2];
+  if (trace < 32768 - 8 || trace > 32768 + 8) return false;
+  return shape.spread_q15[0] >= 0 && shape.spread_q15[1] >= 0 && shape.spread_q15[2] >= 0 &&
+         shape.fill_uq15 <= 32768;
+}
+
+/// The far corner is computed in 64 bits, so that steps and counts cannot wrap before they are
+/// judged.
+bool good(const urad_grid& grid, uint16_t patch_count) noexcept {
+  if (grid.count_u == 0 || grid.count_v == 0) return false;
+  if (uint32_t{grid.count_u} * grid.count_v != patch_count) return false;
+  if (!inside(grid.origin) || !good(grid.shape)) return false;
+  const auto reaches = [&](int32_t origin, int32_t step_u, int32_t step_v) {
+    const int64_t u = int64_t{step_u} * grid.count_u, v = int64_t{step_v} * grid.count_v;
+    const int64_t limit = kCoordinateMax;
+    const auto fits = [=](int64_t x) { return x <= limit && x >= -limit; };
+    return fits(origin + u) && fits(origin + v) && fits(origin + u + v);
+  };
+  return reaches(grid.origin.x, grid.step_u.x, grid.step_v.x) &&
+         reaches(grid.origin.y, grid.step_u.y, grid.step_v.y) &&
+         reaches(grid.origin.z, grid.step_u.z, grid.step_v.z);
+}
+
+bool loop_in_table(const urad_scene& scene, uint32_t first, uint16_t count) noexcept {
+  return scene.vertex && count >= 3 && count <= URAD_POLYGON_MAX_VERTICES &&
+         first < scene.vertex_count && count <= scene.vertex_count - first;
+}
+
+bool good(const urad_scene& scene, const urad_surface& surface, uint32_t expected_first) noexcept {
+  if (surface.first_patch != expected_first || surface.patch_count == 0) return false;
+  if (surface.material >= scene.material_count) return false;
+  if ((surface.grid != nullptr) == (surface.polygon != nullptr)) return false;
+  if (surface.grid) return good(*surface.grid, surface.patch_count);
+  for (uint16_t k = 0; k < surface.patch_count; ++k) {
+    const urad_polygon& polygon = surface.polygon[k];
+    if (!good(polygon.shape) || !inside(polygon.centroid)) return false;
+    if (!loop_in_table(scene, polygon.first_vertex, polygon.vertex_count)) return false;
+  }
+  return true;
+}
+
+bool good(const urad_material& material) noexcept {
+  for (int c = 0; c < 3; ++c) {
+    if (material.reflectance_uq15[c] > 32768) return false;
+    if (material.exitance[c] < 0 || material.exitance[c] > int32_t{1} << 30) return false;
+  }
+  return true;
+}
+
+bool good(const urad_scene& scene, const urad_blocker& blocker) noexcept {
+  return unit(blocker.normal_q30) && inside(blocker.low) && inside(blocker.high) &&
+         loop_in_table(scene, blocker.first_vertex, blocker.vertex_count) &&
+         (blocker.surface == 0xFFFF || blocker.surface < scene.surface_count);
+}
+
+}  // namespace
+
+Status scene_check(const urad_scene* scene) noexcept {
+  if (!scene) return Status::bad_argument;
+  if (scene->abi != URAD_SCENE_ABI || scene->patch_count == 0 || !scene->surface ||
+      !scene->material) {
+    return Status::bad_scene;
+  }
+  if ((scene->blocker_count && !scene->blocker) || (scene->vertex_count && !scene->vertex))
+    return Status::bad_scene;
+  if (magnitude(scene->log2_power_q24) > uint32_t(kLog2Max)) return Status::bad_scene;
+  uint32_t patches = 0;
+  for (uint16_t s = 0; s < scene->surface_count; ++s) {
+    if (!good(*scene, scene->surface[s], patches)) return Status::bad_scene;
+    patches += scene->surface[s].patch_count;
+  }
+  if (patches != scene->patch_count) return Status::bad_scene;
+  for (uint16_t m = 0; m < scene->material_count; ++m) {
+    if (!good(scene->material[m])) return Status::bad_scene;
+  }
+  for (uint32_t v = 0; v < scene->vertex_count; ++v) {
+    if (!inside(scene->vertex[v])) return Status::bad_scene;
+  }
+  for (uint16_t b = 0; b < scene->blocker_count; ++b) {
+    if (!good(*scene, scene->blocker[b])) return Status::bad_scene;
+  }
+  if (scene->log2_scale_q24) {
+    for (uint16_t k = 0; k < scene->patch_count; ++k) {
+      if (magnitude(scene->log2_scale_q24[k]) > uint32_t{8} << 24) return Status::bad_scene;
+    }
+  }
+  return Status::ok;
+}
+
+}  // namespace urad

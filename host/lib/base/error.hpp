@@ -1,0 +1,12 @@
+// The one exception of the host programs: a sentence for the person at the keyboard.
+#pragma once
+#include <stdexcept>
+
+namespace host {
+
+/// Thrown for anything the user can mend. what() names the file, the line, the value and what would do.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace host

@@ -1,0 +1,42 @@
+#include "base/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace host {
+
+Progress::Progress(std::string what, std::size_t total, bool quiet)
+    : what_(std::move(what)), total_(std::max<std::size_t>(total, 1)), quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::add(std::size_t steps) {
+  const std::size_t done = done_.fetch_add(steps) + steps;
+  if (!quiet_) show(std::min(done, total_));
+}
+
+double Progress::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Progress::show(std::size_t done) {
+  const std::size_t parts = terminal_ ? 100 : 10, part = done * parts / total_;
+  const std::lock_guard<std::mutex> guard(output_);
+  if (part <= shown_) return;
+  shown_ = part;
+  const double left = seconds() * double(total_ - done) / double(done);
+  if (terminal_) {
+    const std::string bar(part * 30 / 100, '#');
+    fmt::print(stderr, "\r{} [{:<30}] {:3} %  {:.0f} s left\033[K", what_, bar, part, left);
+    std::fflush(stderr);
+  } else {
+    fmt::print(stderr, "{}: {} %, {:.0f} s left\n", what_, part * 10, left);
+  }
+}
+
+}  // namespace host

@@ -1,0 +1,73 @@
+// The engine's factor sources by name, on the host: the same integers as on a chip.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "method/nets.hpp"
+#include "method/spec.hpp"
+#include "scene/fixed_scene.hpp"
+#include "urad/source.h"
+
+namespace host {
+
+struct EngineOptions {
+  int rays = 64;            ///< visibility rays a pair, where the scene is not convex
+  std::uint32_t skips = 0;  ///< urad::SkipOff bits: skips switched off
+};
+
+/// True for the methods that run in the engine's integers.
+bool is_engine_method(const MethodSpec& spec);
+
+/// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive it.
+///   fixed-kernel, fixed-moment, net[:NAME]    pairs, times the visible fraction by rays
+///   hemicube:R                                item buffer, turned (none in a convex scene)
+///   hybrid[:R]                                occluded: visible fraction of the hemicube times the network's factor;
+///                                             convex: the network for pairs with less than 3 patches between them, else the hemicube's
+class EngineSource {
+ public:
+  /// Throws Error for an unknown method or a value out of range.
+  EngineSource(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets, const EngineOptions& options);
+  ~EngineSource();
+  EngineSource(EngineSource&&) noexcept;
+
+  urad_source source() const;
+  const urad_counters& counters() const;
+  /// Memory the source itself needs on a chip, without the solver's.
+  std::size_t ram_bytes() const;
+  /// Row of factors of one shooter. Throws Error when the engine refuses.
+  void row(std::uint16_t shooter, std::uint32_t* f_uq32) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The engine's visible fractions on their own: hemicube masks, rays for what covers no cell.
+class EngineVisibility {
+ public:
+  EngineVisibility(const FixedScene& scene, int resolution, int rays);
+  ~EngineVisibility();
+  /// Fraction of patch `receiver` that `shooter` sees, 0 .. 1. Not thread-safe: renders when the shooter changes.
+  double fraction(std::uint16_t shooter, std::uint16_t receiver) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// All rows, [N][N] UQ0.32, and what was counted on the way (one sweep).
+struct EngineRows {
+  std::size_t patches = 0;
+  std::vector<std::uint32_t> f_uq32;
+  urad_counters counters{};
+  std::size_t ram_bytes = 0;
+  double seconds = 0;  ///< of all threads together
+
+  double operator()(std::size_t i, std::size_t j) const { return f_uq32[i * patches + j] / 4294967296.0; }
+};
+
+EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets,
+                       const EngineOptions& options, int threads);
+
+}  // namespace host

@@ -1,0 +1,23 @@
+// Which network a method means: a shipped one by name, or a file.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "urad/net.h"
+
+namespace host {
+
+/// Finds a shipped network by name; null when there is none. The library itself knows no weights: a program that has some
+/// hands this in.
+using NetLookup = std::function<const urad_net*(const std::string& name)>;
+
+/// Shipped networks and the file of --net, if any.
+struct NetChoice {
+  NetLookup shipped;
+  const urad_net* file = nullptr;
+
+  /// `net:NAME` is the shipped NAME; `net` is the file of --net or else the general network. Throws Error.
+  const urad_net& find(const std::string& name) const;
+};
+
+}  // namespace host

@@ -1,0 +1,69 @@
+#include "method/pairs_table.hpp"
+
+#include <fmt/format.h>
+
+#include "base/parallel.hpp"
+#include "geometry/parse.hpp"
+
+namespace host {
+
+namespace {
+
+/// id and the outcome of every method for one row.
+struct Row {
+  std::vector<PairResult> results;
+};
+
+PairResult refused(PolygonStatus status) {
+  return {{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()},
+          std::string(name(status))};
+}
+
+Row evaluate(const std::string& p_text, const std::string& q_text, const std::vector<FreePairMethod>& methods) {
+  Row row;
+  const ParsedPolygon p = parse_polygon(p_text), q = parse_polygon(q_text);
+  const PolygonStatus status = p.status != PolygonStatus::ok ? p.status : q.status;
+  for (const FreePairMethod& method : methods) {
+    row.results.push_back(status == PolygonStatus::ok ? method.run(p.polygon, q.polygon) : refused(status));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& specs, const NetChoice& nets, int threads,
+                        bool quiet) {
+  const std::size_t id = pairs.column("id"), p = pairs.column("p"), q = pairs.column("q");
+  std::vector<FreePairMethod> methods;
+  std::vector<std::string> header{"id"};
+  for (const MethodSpec& spec : specs) {
+    methods.push_back(pair_method(spec, nets));
+    const std::string suffix = specs.size() == 1 ? "" : "_" + spec.text();
+    header.push_back("f" + suffix);
+    header.push_back("status" + suffix);
+    if (methods.back().knows_error) header.push_back("error" + suffix);
+  }
+
+  std::vector<Row> rows(pairs.rows.size());
+  Progress progress("form factors", rows.size(), quiet);
+  parallel_for(rows.size(), threads, [&](std::size_t k) {
+    rows[k] = evaluate(pairs.rows[k].cells[p], pairs.rows[k].cells[q], methods);
+    progress.add();
+  });
+
+  std::string text = csv_line(header);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<std::string> cells{pairs.rows[k].cells[id]};
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const PairResult& result = rows[k].results[m];
+      const bool ok = result.status == "ok";
+      cells.push_back(ok ? csv_number(result.estimate.f) : "");
+      cells.push_back(result.status);
+      if (methods[m].knows_error) cells.push_back(ok ? csv_number(result.estimate.relative_error) : "");
+    }
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+}  // namespace host

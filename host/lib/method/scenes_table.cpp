@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "form_factor/monte_carlo.hpp"
+#include "form_factor/reference.hpp"
+#include "geometry/parse.hpp"
+#include "method/engine_source.hpp"
+#include "method/pairs_table.hpp"
+#include "scene/cut.hpp"
+#include "scene/grid_detect.hpp"
+#include "urad/hemicube_table.hpp"
+#include "urad/visibility.hpp"
+
+namespace host {
+
+namespace {
+
+constexpr int kRaysForUncovered = 256;
+
+/// One scene of the file: from P to Q past B.
+struct OccludedPlates {
+  std::string name;
+  std::vector<Polygon> from, to, blockers;
+  std::string status = "ok";
+};
+
+void add_row(OccludedPlates* plates, const std::string& role, const std::string& text) {
+  const ParsedPolygon parsed = parse_polygon(text);
+  if (plates->status != "ok") return;
+  if (parsed.status != PolygonStatus::ok) {
+    plates->status = name(parsed.status);
+  } else if (role == "P") {
+    plates->from.push_back(parsed.polygon);
+  } else if (role == "Q") {
+    plates->to.push_back(parsed.polygon);
+  } else {
+    plates->blockers.push_back(parsed.polygon);
+  }
+}
+
+std::vector<OccludedPlates> read_scenes(const CsvTable& rows) {
+  const std::size_t scene = rows.column("scene"), role = rows.column("role"), polygon = rows.column("polygon");
+  std::vector<OccludedPlates> scenes;
+  std::map<std::string, std::size_t> known;
+  for (const CsvRow& row : rows.rows) {
+    const auto [at, added] = known.try_emplace(row.cells[scene], scenes.size());
+    if (added) scenes.push_back({row.cells[scene], {}, {}, {}});
+    const std::string& letter = row.cells[role];
+    if (letter != "P" && letter != "Q" && letter != "B") {
+      throw Error(fmt::format("{}:{}: role \"{}\" should be P, Q or B", rows.name, row.line, letter));
+    }
+    add_row(&scenes[at->second], letter, row.cells[polygon]);
+  }
+  for (OccludedPlates& plates : scenes) {
+    if (plates.status == "ok" && plates.from.empty()) plates.status = "invalid_no_p";
+    if (plates.status == "ok" && plates.to.empty()) plates.status = "invalid_no_q";
+  }
+  return scenes;
+}
+
+/// False when the blocker cannot touch any segment between p and q: it lies behind one of the planes, or outside their box.
+bool may_block(const Polygon& p, const Polygon& q, const Polygon& blocker) {
+  const auto behind = [&blocker](const Moments& plane) {
+    const double tolerance = 1e-12 * glm::length(plane.centroid - blocker.outer.front());
+    return std::all_of(blocker.outer.begin(), blocker.outer.end(),
+                       [&](const Vec3& x) { return glm::dot(plane.normal, x - plane.centroid) <= tolerance; });
+  };
+  if (behind(moments(p)) || behind(moments(q))) return false;
+  Vec3 low = p.outer.front(), high = low;
+  for (const Polygon* polygon : {&p, &q}) {
+    for (const Vec3& x : polygon->outer) low = glm::min(low, x), high = glm::max(high, x);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto beyond = [&](auto outside) { return std::all_of(blocker.outer.begin(), blocker.outer.end(), outside); };
+    if (beyond([&](const Vec3& x) { return x[axis] <= low[axis]; }) && low[axis] < high[axis]) return false;
+    if (beyond([&](const Vec3& x) { return x[axis] >= high[axis]; }) && low[axis] < high[axis]) return false;
+  }
+  return true;
+}
+
+/// What a method says of one piece of P: exchange with all of Q, or why not.
+struct PieceResult {
+  double exchange = 0;
+  std::string status = "ok";
+};
+
+using PieceMethod = std::function<PieceResult(const OccludedPlates&, const Polygon& piece)>;
+
+PieceResult by_reference(const OccludedPlates& plates, const Polygon& piece) {
+  PieceResult result;
+  for (const Polygon& q : plates.to) {
+    const bool clear = std::none_of(plates.blockers.begin(), plates.blockers.end(),
+                                    [&](const Polygon& blocker) { return may_block(piece, q, blocker); });
+    if (!clear) return {0, "unsupported_occluded"};
+    result.exchange += reference_exchange(piece, q);
+  }
+  return result;
+}
+
+PieceResult by_monte_carlo(const OccludedPlates& plates, const Polygon& piece, int samples) {
+  PieceResult result;
+  for (const Polygon& q : plates.to) {
+    result.exchange += moments(piece).area * monte_carlo(piece, q, samples, plates.blockers).f;
+  }
+  return result;
+}
+
+/// Patch 0 is the piece, 1.. are Q; blockers belong to no surface.
+FixedScene fixed_scene(const OccludedPlates& plates, const Polygon& piece) {
+  std::vector<Polygon> patches{piece};
+  patches.insert(patches.end(), plates.to.begin(), plates.to.end());
+  return FixedScene::of_polygons(patches, plates.blockers);
+}
+
+PieceResult by_rays(const OccludedPlates& plates, const Polygon& piece, int rays) {
+  PieceResult result;
+  const FixedScene scene = fixed_scene(plates, piece);
+  urad_counters counters{};
+  for (std::size_t k = 0; k < plates.to.size(); ++k) {
+    const std::uint32_t seen_uq16 =
+        urad::visible_fraction_uq16(scene.pod(), urad::patch_at(scene.pod(), 0),
+                                    urad::patch_at(scene.pod(), std::uint16_t(k + 1)), std::uint16_t(rays), true, &counters);
+    result.exchange += seen_uq16 / 65536.0 * reference_exchange(piece, plates.to[k]);
+  }
+  return result;
+}
+
+PieceResult by_hemicube(const OccludedPlates& plates, const Polygon& piece, const MethodSpec& spec, const NetChoice& nets) {
+  const FixedScene scene = fixed_scene(plates, piece);
+  std::vector<std::uint32_t> row(plates.to.size() + 1);
+  EngineSource(scene, spec, nets, {}).row(0, row.data());
+  PieceResult result;
+  for (std::size_t k = 1; k < row.size(); ++k) result.exchange += moments(piece).area * row[k] / 4294967296.0;
+  return result;
+}
+
+/// The hemicube's visible fraction times the exact factor; rays where a receiver covers no cell.
+PieceResult by_hybrid(const OccludedPlates& plates, const Polygon& piece, int resolution) {
+  const FixedScene scene = fixed_scene(plates, piece);
+  const EngineVisibility visible(scene, resolution, kRaysForUncovered);
+  PieceResult result;
+  for (std::size_t k = 0; k < plates.to.size(); ++k) {
+    result.exchange += visible.fraction(0, std::uint16_t(k + 1)) * reference_exchange(piece, plates.to[k]);
+  }
+  return result;
+}
+
+PieceMethod piece_method(const MethodSpec& spec, const NetChoice& nets) {
+  if (spec.name == "reference") return by_reference;
+  if (spec.name == "monte-carlo") {
+    const int n = spec.number(100000, 16, 1'000'000'000);
+    return [n](const auto& plates, const Polygon& piece) { return by_monte_carlo(plates, piece, n); };
+  }
+  if (spec.name == "rays") {
+    const int n = spec.number(256, 1, urad::kMaxRays);
+    return [n](const auto& plates, const Polygon& piece) { return by_rays(plates, piece, n); };
+  }
+  if (spec.name == "hemicube") {
+    spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
+    return [spec, &nets](const auto& plates, const Polygon& piece) { return by_hemicube(plates, piece, spec, nets); };
+  }
+  if (spec.name == "hybrid") {
+    const int n = spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
+    return [n](const auto& plates, const Polygon& piece) { return by_hybrid(plates, piece, n); };
+  }
+  throw Error(fmt::format("--method {}: not for scenes with blockers; those are reference, monte-carlo:N, hemicube:R, "
+                          "hybrid[:R], rays:N",
+                          spec.text()));
+}
+
+/// P in about n x n pieces.
+std::vector<Polygon> pieces(const Polygon& polygon, int n) {
+  if (n == 1) return {polygon};
+  std::size_t total = 0;
+  Piece piece = cut_face({polygon, 0, {1, 1}, "--subdivide"}, {n, 0}, &total);
+  if (!piece.grid) return piece.patches;
+  std::vector<Polygon> patches;
+  for (int v = 0; v < piece.grid->count_v; ++v) {
+    for (int u = 0; u < piece.grid->count_u; ++u) patches.push_back(grid_patch(*piece.grid, u, v));
+  }
+  return patches;
+}
+
+PieceResult whole(const OccludedPlates& plates, const PieceMethod& method, int subdivide) {
+  if (plates.status != "ok") return {0, plates.status};
+  double exchange = 0, area = 0;
+  for (const Polygon& p : plates.from) {
+    for (const Polygon& piece : pieces(p, subdivide)) {
+      const PieceResult part = method(plates, piece);
+      if (part.status != "ok") return part;
+      exchange += part.exchange;
+      area += moments(piece).area;
+    }
+  }
+  return {std::clamp(exchange / area, 0.0, 1.0), "ok"};
+}
+
+}  // namespace
+
+std::string scenes_table(const CsvTable& rows, const MethodSpec& spec, const NetChoice& nets, int subdivide, int threads,
+                         bool quiet) {
+  const PieceMethod method = piece_method(spec, nets);
+  const std::vector<OccludedPlates> scenes = read_scenes(rows);
+  std::vector<PieceResult> results(scenes.size());
+  Progress progress("scenes", scenes.size(), quiet);
+  parallel_for(scenes.size(), threads, [&](std::size_t k) {
+    results[k] = whole(scenes[k], method, subdivide);
+    progress.add();
+  });
+  std::string text = csv_line({"scene", "f", "status"});
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const bool ok = results[k].status == "ok";
+    text += csv_line({scenes[k].name, ok ? csv_number(results[k].exchange) : "", results[k].status});
+  }
+  return text;
+}
+
+}  // namespace host

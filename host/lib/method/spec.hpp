@@ -1,0 +1,22 @@
+// The name of a method as typed: "lambert:3", "net:cube7", "hemicube:64".
+#pragma once
+#include <string>
+#include <vector>
+
+namespace host {
+
+struct MethodSpec {
+  std::string name;      ///< before the colon
+  std::string argument;  ///< after it, or empty
+
+  std::string text() const { return argument.empty() ? name : name + ":" + argument; }
+  /// The argument as a whole number in [least, most], or `otherwise` when there is none. Throws Error.
+  int number(int otherwise, int least, int most) const;
+};
+
+MethodSpec parse_method(const std::string& text);
+
+/// "M[,M...]". Throws Error when the list or one of its members is empty.
+std::vector<MethodSpec> parse_methods(const std::string& list);
+
+}  // namespace host

@@ -1,0 +1,185 @@
+#include "network/quantise.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "network/trainer.hpp"
+
+namespace host {
+
+namespace {
+
+constexpr double kFullScale = 32768;
+// sum |w_q| 2^15 + |b_q| < 2^31, with room for the rounding of up to 33 weights by half a unit
+// each.
+constexpr double kSumMax = 65535 - 33 / 2.0;
+
+// Scale of one accumulator: real weight per integer. rescale is exact, so the weights can be
+// rounded against it.
+struct Scale {
+  urad_rescale rescale;
+  double unit;
+};
+
+// factor = unit * units_per_weight is what the accumulator is multiplied by.
+Scale scale_for(double least_unit, double units_per_weight) {
+  const double factor = std::max(least_unit * units_per_weight, 0x1p-31);
+  const urad_rescale rescale = rescale_of(factor * (1 + 0x1p-15));  // never finer than least_unit
+  return {rescale, value_of(rescale) / units_per_weight};
+}
+
+double weight_max(int bits) { return bits == 8 ? 127 : 32767; }
+
+Scale hidden_scale(const FloatNet& net, int h, int bits) {
+  double sum = std::fabs(net.hidden_bias(h)), largest = 0;
+  for (int n = 0; n < net.inputs(); ++n) {
+    sum += std::fabs(net.hidden_weight(h, n));
+    largest = std::max(largest, std::fabs(net.hidden_weight(h, n)));
+  }
+  // z_q11 = accumulator * unit * 2^11 / 2^15
+  return scale_for(std::max(largest / weight_max(bits), sum / kSumMax), 0x1p-4);
+}
+
+std::int16_t round16(double x) { return static_cast<std::int16_t>(std::lround(x)); }
+
+std::int32_t round_bias(double bias, double unit) {
+  const double b = std::round(bias / unit * kFullScale);
+  if (!(std::fabs(b) < 0x1p31))
+    throw Error(fmt::format("a bias of {} does not fit beside weights in units of {}", bias, unit));
+  return static_cast<std::int32_t>(b);
+}
+
+// Everything but the hidden weights, which are already integers in `tables`.
+void round_rest(const FloatNet& net, const std::vector<Scale>& scales, NetTables* tables) {
+  double sum = std::fabs(net.output_bias()), largest = 0;
+  for (int p = net.output_at(); p < net.bias_at(); ++p) {
+    sum += std::fabs(net.parameters[p]);
+    largest = std::max(largest, std::fabs(net.parameters[p]));
+  }
+  // y_q16 = accumulator * unit * 2^16 / 2^15
+  const Scale output = scale_for(std::max(largest / weight_max(16), sum / (kSumMax - 32)), 2);
+  tables->output_rescale = output.rescale;
+  tables->output_bias = round_bias(net.output_bias(), output.unit);
+  tables->hidden_bias.clear(), tables->hidden_rescale.clear();
+  tables->output_weight.clear(), tables->skip_weight.clear();
+  for (int h = 0; h < net.hidden(); ++h) {
+    const Scale& scale = scales[std::size_t(h)];
+    tables->hidden_bias.push_back(round_bias(net.hidden_bias(h), scale.unit));
+    tables->hidden_rescale.push_back(scale.rescale);
+    tables->output_weight.push_back(round16(net.output_weight(h) / output.unit));
+  }
+  for (int n = 0; n < net.inputs(); ++n)
+    tables->skip_weight.push_back(round16(net.skip_weight(n) / output.unit));
+}
+
+NetTables empty_tables(const FloatNet& net, int bits, double far_rho) {
+  if (bits != 8 && bits != 16) throw Error(fmt::format("weights have 8 or 16 bits, not {}", bits));
+  if (!(far_rho >= 0 && far_rho < 1))
+    throw Error(fmt::format("the far threshold is 0 or more and below 1, not {}", far_rho));
+  NetTables tables;
+  tables.inputs = net.inputs();
+  tables.hidden = net.hidden();
+  tables.weight_bits = bits;
+  tables.far_rho_uq16 = static_cast<std::uint16_t>(std::min(65535.0, std::round(far_rho * 65536)));
+  tables.hidden_weight.assign(std::size_t(net.inputs() * net.hidden()), 0);
+  return tables;
+}
+
+// Rounds the hidden weights of neuron h in turn; the parameters that are still free take up each
+// rounding error along the inverse Hessian of what is left. All in normalised parameters.
+void round_neuron(const FloatNet& scaled, int h, const Scale& scale,
+                  const Eigen::VectorXd& deviation, Eigen::MatrixXd inverse,
+                  const std::vector<int>& free, FloatNet* net, NetTables* tables) {
+  Eigen::VectorXd value(Eigen::Index(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k) value[Eigen::Index(k)] = scaled.parameters[free[k]];
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const int n = free[k] - h * net->inputs();
+    if (n < 0 || n >= net->inputs()) continue;
+    const auto at = Eigen::Index(k);
+    const double unit = scale.unit * deviation[n];
+    const double q = std::clamp(std::round(value[at] / unit), -127.0, 127.0);
+    tables->hidden_weight[std::size_t(free[k])] = round16(q);
+    const Eigen::VectorXd column = inverse.col(at) / inverse(at, at);
+    value -= column * (value[at] - q * unit);
+    value[at] = q * unit;
+    inverse -= column * inverse.row(at).eval();
+    inverse.row(at).setZero(), inverse.col(at).setZero();
+    inverse(at, at) = 1;
+  }
+  for (std::size_t k = 0; k < free.size(); ++k) net->parameters[free[k]] = value[Eigen::Index(k)];
+}
+
+QuantisedNet quantise_narrow(const FloatNet& original, double far_rho, const Compensation& c) {
+  const Normalisation scaling = normalisation(*c.training);
+  const Objective objective(*c.training, scaling, c.threads);
+  FloatNet net = original;
+  NetTables tables = empty_tables(net, 8, far_rho);
+  std::vector<char> is_free(std::size_t(net.parameters.size()), 1);
+  std::vector<Scale> scales;
+  for (int h = 0; h < net.hidden(); ++h) {
+    scales.push_back(hidden_scale(net, h, 8));
+    FloatNet scaled = unfold_normalisation(net, scaling.mean, scaling.deviation);
+    Eigen::MatrixXd hessian;
+    Eigen::VectorXd gradient;
+    objective.model(scaled, c.robust, &hessian, &gradient);
+    std::vector<int> free;
+    for (std::size_t p = 0; p < is_free.size(); ++p)
+      if (is_free[p]) free.push_back(int(p));
+    hessian = Eigen::MatrixXd(hessian(free, free));
+    hessian.diagonal().array() += c.decay + 1e-7 * hessian.diagonal().mean();
+    const Eigen::MatrixXd inverse =
+        hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+    FloatNet rounded = scaled;
+    round_neuron(scaled, h, scales.back(), scaling.deviation, inverse, free, &rounded, &tables);
+    net = fold_normalisation(rounded, scaling.mean, scaling.deviation);
+    for (int n = 0; n < net.inputs(); ++n) {
+      const auto p = std::size_t(h * net.inputs() + n);
+      net.parameters[Eigen::Index(p)] = tables.hidden_weight[p] * scales.back().unit;
+      is_free[p] = 0;
+    }
+    net = refine(net, *c.training, is_free, 6, c.robust, c.decay, c.threads);
+  }
+  round_rest(net, scales, &tables);
+  return QuantisedNet(tables);
+}
+
+}  // namespace
+
+double value_of(const urad_rescale& rescale) {
+  return std::ldexp(double(rescale.multiplier), -int{rescale.shift});
+}
+
+urad_rescale rescale_of(double factor) {
+  if (!(factor >= 0x1p-32 && factor < 0x1p15))
+    throw Error(fmt::format("a scale of {} is outside 2^-32 .. 2^15", factor));
+  int exponent = 0;
+  double multiplier = std::round(std::ldexp(std::frexp(factor, &exponent), 16));
+  if (multiplier > 65535) multiplier /= 2, ++exponent;
+  return {static_cast<std::uint16_t>(multiplier), static_cast<std::uint16_t>(16 - exponent)};
+}
+
+NetTables round_net(const FloatNet& net, int weight_bits, double far_rho) {
+  NetTables tables = empty_tables(net, weight_bits, far_rho);
+  std::vector<Scale> scales;
+  for (int h = 0; h < net.hidden(); ++h) {
+    scales.push_back(hidden_scale(net, h, weight_bits));
+    for (int n = 0; n < net.inputs(); ++n)
+      tables.hidden_weight[std::size_t(h * net.inputs() + n)] =
+          round16(net.hidden_weight(h, n) / scales.back().unit);
+  }
+  round_rest(net, scales, &tables);
+  return tables;
+}
+
+QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
+                      const Compensation& compensation) {
+  if (weight_bits == 8 && compensation.training != nullptr)
+    return quantise_narrow(net, far_rho, compensation);
+  return QuantisedNet(round_net(net, weight_bits, far_rho));
+}
+
+}  // namespace host

@@ -1,0 +1,31 @@
+// From double to the integers of urad/net.h.
+#pragma once
+#include "network/float_net.hpp"
+#include "network/quantised_net.hpp"
+#include "network/training_set.hpp"
+
+namespace host {
+
+/// The multiplier (>= 2^15: 16 significant bits) and shift closest to `factor`. 2^-32 <= factor <
+/// 2^15, else Error.
+urad_rescale rescale_of(double factor);
+double value_of(const urad_rescale& rescale);
+
+/// Each weight rounded on its own; per neuron the finest scale that neither a weight nor the
+/// accumulator can overflow. far_rho: 0 .. 1, pairs below it take the kernel alone.
+NetTables round_net(const FloatNet& net, int weight_bits, double far_rho);
+
+/// How to make up for rounding: what the net was trained on, and how.
+struct Compensation {
+  const TrainingSet* training = nullptr;
+  double robust = 0, decay = 1e-7;
+  int threads = 0;
+};
+
+/// 16 bits: round_net(). 8 bits: hidden weights are rounded in turn, and what is not yet rounded
+/// takes up the error through the Gauss-Newton Hessian [Hassibi and Stork 1993, "optimal brain
+/// surgeon"], then by training steps.
+QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
+                      const Compensation& compensation);
+
+}  // namespace host

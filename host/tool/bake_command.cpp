@@ -1,0 +1,194 @@
+// urad bake: everything a renderer and a person want of one scene: pictures, vertex colours, C arrays, report.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "net_option.hpp"
+#include "report/instructions.hpp"
+#include "report/ply.hpp"
+#include "report/report_html.hpp"
+#include "report/solve_json.hpp"
+#include "report/text.hpp"
+#include "scene/c_export.hpp"
+#include "scene_option.hpp"
+#include "solve/scene_solver.hpp"
+
+namespace tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  SceneOption scene;
+  std::string methods = "exact,net,hemicube:64,hybrid:64", net, folder, instructions;
+  double error = 0.001;
+  int size = 480;
+};
+
+std::string command_of(const Options& options) {
+  std::string text = fmt::format("urad bake {} --method {}", options.scene.name, options.methods);
+  if (!options.net.empty()) text += " --net " + options.net;
+  return text + " -o " + options.folder;
+}
+
+std::string file_of(std::string method) {
+  std::replace(method.begin(), method.end(), ':', '_');
+  return method;
+}
+
+host::MethodResult exact_result(host::SceneSolver& solver) {
+  host::MethodResult result;
+  result.name = "exact";
+  result.title = solver.scene().convex ? "Exact factors, dense solve" : "Exact factors, traced visibility, dense solve";
+  result.reference = true;
+  result.B = solver.exact().radiosity;
+  result.seconds = solver.exact().seconds;
+  return result;
+}
+
+host::EnergyAudit audit_of(const urad_ledger& ledger) {
+  host::EnergyAudit audit;
+  for (std::size_t c = 0; c < 3; ++c) {
+    audit.emitted[c] = ledger.emitted[c];
+    audit.absorbed[c] = ledger.absorbed[c];
+    audit.unshot[c] = ledger.unshot[c];
+    audit.escaped[c] = ledger.escaped[c];
+  }
+  return audit;
+}
+
+host::MethodResult method_result(const std::string& name, const host::MethodRun& run) {
+  const host::FixedSolution& solution = run.solution;
+  const double pairs = double(run.rows.patches) * double(run.rows.patches - 1);
+  host::MethodResult result;
+  result.name = name;
+  result.B = solution.radiosity;
+  result.errors = {run.rms, run.max, run.factors.std, run.factors.max, run.factors.row_mean, run.factors.row_worst};
+  result.shots = std::uint32_t(solution.shots);
+  result.seconds = run.rows.seconds + solution.seconds;
+  result.ns_per_pair = run.rows.seconds / pairs * 1e9;
+  result.ram_bytes = std::int64_t(solution.ram_bytes + run.rows.ram_bytes);
+  result.memory = {{"solver: unshot and shot power, one run of factors", host::bytes_text(std::int64_t(solution.ram_bytes))},
+                   {"source of factors", host::bytes_text(std::int64_t(run.rows.ram_bytes))}};
+  result.counters = run.rows.counters;
+  result.solver = solution.counters;
+  result.audit = audit_of(solution.ledger);
+  return result;
+}
+
+std::vector<host::Fact> facts(const host::Scene& scene, const host::SceneSolver& solver) {
+  return {{"Patches", std::to_string(scene.patches.size())},
+          {"Surfaces", std::to_string(scene.surfaces.size())},
+          {"Polygons that can stand between patches", std::to_string(scene.blockers.size())},
+          {"Convex", scene.convex ? "yes: no visibility is computed" : "no"},
+          {"Closed", scene.closed ? "yes: rows are repaired to sum to 1" : "no: light escapes"},
+          {"Scene units per unit of the file", fmt::format("{:.6g}", solver.fixed().units_per_length())},
+          {"Exitance per integer", fmt::format("{:.6g}", solver.fixed().exitance_unit())}};
+}
+
+std::vector<host::Fact> network_facts(const host::NetFile* file) {
+  if (!file) return {};
+  std::vector<host::Fact> result = {{"Trained by", file->command}, {"Split", file->split}};
+  for (const host::ErrorRow& row : file->errors) result.push_back({row.name, host::to_line(row)});
+  return result;
+}
+
+void write_method(const fs::path& folder, const host::Scene& scene, const host::MethodResult& method,
+                  const host::CornerMesh& mesh, double white) {
+  const std::string stem = (folder / file_of(method.name)).string();
+  host::write_file_atomically(stem + ".png", method.pictures.smooth);
+  if (!method.pictures.difference.empty()) {
+    host::write_file_atomically(stem + "_difference.png", method.pictures.difference);
+  }
+  host::write_file_atomically(stem + ".ply", host::ply(scene, mesh, method.B, white));
+}
+
+void run(const Options& options, const Common& common) {
+  const Nets nets(options.net);
+  const host::Scene scene = options.scene.load();
+  host::SceneSolver solver(scene, common.threads, common.quiet);
+  std::unique_ptr<host::InstructionCounts> counts;
+  if (!options.instructions.empty()) counts = std::make_unique<host::InstructionCounts>(options.instructions);
+  const fs::path folder(options.folder);
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw host::Error(fmt::format("{}: cannot make this folder: {}", options.folder, failure.message()));
+
+  host::BakeReport report;
+  report.title = scene.name;
+  report.scene = options.scene.name;
+  report.version = URAD_VERSION;
+  report.command = command_of(options);
+  report.facts = facts(scene, solver);
+  report.network = network_facts(nets.file());
+  report.reproduce = {report.command};
+
+  host::SolveGoal goal;
+  goal.error = options.error;
+  const std::string name = host::c_identifier(scene.name);
+  std::string light;
+  for (const host::MethodSpec& spec : host::parse_methods(options.methods)) {
+    if (!common.quiet) fmt::print(stderr, "{}: {}\n", options.scene.name, spec.text());
+    if (spec.name == "exact") {
+      report.methods.push_back(exact_result(solver));
+      continue;
+    }
+    const host::MethodRun run = solver.run(spec, nets.choice(), goal);
+    if (run.solution.status != URAD_OK) {
+      throw host::Error(fmt::format("{} by {}: the solve stopped with status {}; a lower reflectance or another method "
+                                    "would do",
+                                    options.scene.name, spec.text(), int(run.solution.status)));
+    }
+    host::MethodResult result = method_result(spec.text(), run);
+    if (counts) {
+      result.m0_instructions_per_pair = counts->per_pair(spec.text());
+      if (const auto shot = counts->per_shot(spec.text())) result.m0_instructions = *shot * *result.shots;
+    }
+    if (light.empty()) light = host::light_to_c(solver.fixed(), run.solution.raw, name, report.command);
+    // The scene goes out with the repair that belongs to the network's or kernel's factors.
+    if (!fs::exists(folder / "scene.h") || spec.name == "net") {
+      host::write_file_atomically((folder / "scene.h").string(), host::scene_to_c(solver.fixed(), name, report.command));
+    }
+    report.methods.push_back(std::move(result));
+  }
+
+  host::PictureOptions pictures;
+  pictures.width = pictures.height = options.size;
+  pictures.threads = common.threads;
+  host::add_pictures(scene, pictures, &report);
+  const host::CornerMesh mesh = host::merge_corners(scene);
+  const double white = host::white_level(scene, solver.exact().radiosity);
+  for (const host::MethodResult& method : report.methods) {
+    write_method(folder, scene, method, mesh, white);
+    report.files.push_back({file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
+  }
+  if (!light.empty()) {
+    host::write_file_atomically((folder / "light.h").string(), light);
+    report.files.push_back({"scene.h, light.h", "the scene and its light as C arrays"});
+  }
+  host::write_file_atomically((folder / "report.json").string(), host::report_json({report}));
+  host::write_file_atomically((folder / "report.html").string(), host::report_html({report}));
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, const Common& common) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("bake", "Pictures, vertex colours, C arrays and a report of a solved scene");
+  options->scene.add_to(command);
+  command->add_option("--method", options->methods, "M[,M...], as for solve")->capture_default_str();
+  command->add_option("--net", options->net, "JSON of the network for net and hybrid");
+  command->add_option("--error", options->error, "Stop each solve at this relative rms error of B")
+      ->check(CLI::Range(1e-7, 1.0))
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Width and height of the pictures")->check(CLI::Range(16, 4096));
+  command->add_option("--instructions", options->instructions, "Counted Cortex-M0 instructions (bench/icount)");
+  command->add_option("-o,--out", options->folder, "Folder to write into")->required();
+  command->callback([options, &common] { run(*options, common); });
+}
+
+}  // namespace tool

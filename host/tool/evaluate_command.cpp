@@ -1,0 +1,105 @@
+// urad evaluate: the error of networks by decade of F and by kind of pair, against the reference.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/file.hpp"
+#include "command.hpp"
+#include "network/evaluate.hpp"
+#include "network/net_json.hpp"
+#include "scene/builtin.hpp"
+
+namespace tool {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> nets;
+  std::string scene, out = "-";
+  host::MeshOptions mesh;
+  int bits = 16;
+  std::size_t pairs = 4000;
+  std::uint64_t seed = 20240229;
+};
+
+struct Entry {
+  std::string name;
+  const urad_net* net;  // null: the kernel alone
+};
+
+std::string on_scene(const host::Scene& scene, const std::vector<Entry>& entries, double far_rho,
+                     const Common& common) {
+  const host::FixedScene fixed(scene);
+  const host::SceneDataset dataset =
+      host::scene_dataset(scene, fixed, far_rho, 1, 400000, common.threads);
+  std::string text = fmt::format("Scene {}: {} ordered pairs, {} configurations\n\n", scene.name,
+                                 2 * dataset.pairs.size(), dataset.configurations.size());
+  for (const Entry& entry : entries)
+    text +=
+        host::to_text(host::evaluate(entry.name, dataset, host::engine_method(fixed, entry.net))) +
+        "\n";
+  return text;
+}
+
+std::string on_random_pairs(const Options& options, const std::vector<Entry>& entries,
+                            double far_rho, const Common& common) {
+  std::vector<host::PairMethod> methods;
+  for (const Entry& entry : entries) methods.push_back(host::engine_method(entry.net));
+  const auto families =
+      host::measure_general(methods, options.seed, options.pairs, far_rho, common.threads);
+  std::string text = fmt::format("Random pairs, seed {}\n\n", options.seed);
+  for (std::size_t m = 0; m < entries.size(); ++m)
+    for (const host::GeneralMeasurement& family : families)
+      text += host::to_text(host::error_table(
+                  fmt::format("{}, {}", entries[m].name, host::name(family.family)),
+                  family.by_method[m])) +
+              "\n";
+  return text;
+}
+
+void run(const Options& options, const Common& common) {
+  std::vector<host::NetFile> files;
+  for (const std::string& path : options.nets) files.push_back(host::read_net(path));
+  std::vector<Entry> entries{{"moment kernel", nullptr}};
+  for (std::size_t k = 0; k < files.size(); ++k)
+    entries.push_back({options.nets[k], &files[k].quantised(options.bits).pod()});
+  const double far_rho = files.front().far_rho;
+  std::string text;
+  const bool general = files.front().subject == "general";
+  const std::string& scene =
+      options.scene.empty() && !general ? files.front().subject : options.scene;
+  if (!scene.empty())
+    text += on_scene(host::load_scene(scene, options.mesh), entries, far_rho, common);
+  if (scene.empty()) text += on_random_pairs(options, entries, far_rho, common);
+  host::write_file_atomically(options.out, text);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, const Common& common) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "evaluate",
+      "Error of networks by decade of F and kind of pair: on a scene, or on random pairs");
+  command->add_option("nets", options->nets, "net.json ...")->required();
+  command->add_option("--scene", options->scene,
+                      "Scene to measure on; default: the first net's own, if it has one");
+  auto* subdivide =
+      command
+          ->add_option("--subdivide", options->mesh.subdivide, "Cut every face into N x N patches")
+          ->check(CLI::PositiveNumber);
+  command->add_option("--patch-size", options->mesh.patch_size, "Longest patch edge")
+      ->check(CLI::PositiveNumber)
+      ->excludes(subdivide);
+  command->add_option("--bits", options->bits, "Which of the quantised nets")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str();
+  command->add_option("--pairs", options->pairs, "Random pairs of each family")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
+  command->add_option("-o,--out", options->out, "Text file; \"-\": standard output")
+      ->capture_default_str();
+  command->callback([options, &common] { run(*options, common); });
+}
+
+}  // namespace tool

@@ -1,0 +1,26 @@
+// SCENE and how to cut it: the same for every command that takes a scene.
+#pragma once
+#include <string>
+
+#include "command.hpp"
+#include "scene/builtin.hpp"
+
+namespace tool {
+
+struct SceneOption {
+  std::string name;
+  host::MeshOptions mesh;
+
+  void add_to(CLI::App* command) {
+    command->add_option("SCENE,--scene", name, "An OBJ with its MTL, a patch CSV, or a built-in name: cube7, cornell")
+        ->required();
+    auto* subdivide = command->add_option("--subdivide", mesh.subdivide, "Cut every quad into N x N patches")
+                          ->check(CLI::Range(1, 256));
+    command->add_option("--patch-size", mesh.patch_size, "Longest patch edge, in the file's unit")
+        ->check(CLI::PositiveNumber)
+        ->excludes(subdivide);
+  }
+  host::Scene load() const { return host::load_scene(name, mesh); }
+};
+
+}  // namespace tool

@@ -1,0 +1,177 @@
+#include "form_factor/reference.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/csv.hpp"
+#include "geometry/parse.hpp"
+#include "pair_families.hpp"
+
+using families::flipped;
+using families::hinge;
+using families::Pair;
+using families::rectangle;
+using host::Polygon;
+using host::reference_exchange;
+using host::reference_form_factor;
+using host::Vec3;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Equal parallel rectangles a x b at distance c [Howell, C-11].
+double parallel_rectangles(double a, double b, double c) {
+  const double x = a / c;
+  const double y = b / c;
+  const double x1 = std::sqrt(1 + x * x);
+  const double y1 = std::sqrt(1 + y * y);
+  return 2 / (kPi * x * y) *
+         (std::log(x1 * y1 / std::sqrt(1 + x * x + y * y)) + x * y1 * std::atan(x / y1) +
+          y * x1 * std::atan(y / x1) - x * std::atan(x) - y * std::atan(y));
+}
+
+/// Perpendicular rectangles with a common edge l, widths w (from) and h [Howell, C-14].
+double perpendicular_rectangles(double w, double h, double l) {
+  const double x = w / l;
+  const double y = h / l;
+  const double x2 = x * x;
+  const double y2 = y * y;
+  const double r2 = x2 + y2;
+  const double logs = std::log((1 + x2) * (1 + y2) / (1 + r2)) +
+                      x2 * std::log(x2 * (1 + r2) / ((1 + x2) * r2)) +
+                      y2 * std::log(y2 * (1 + r2) / ((1 + y2) * r2));
+  return (x * std::atan(1 / x) + y * std::atan(1 / y) -
+          std::sqrt(r2) * std::atan(1 / std::sqrt(r2)) + logs / 4) /
+         (kPi * x);
+}
+
+/// Regular polygon inscribed in a circle, lit side up.
+Polygon disc(int n, double radius, double z) {
+  Polygon polygon;
+  for (int k = 0; k < n; ++k)
+    polygon.outer.push_back(
+        {radius * std::cos(2 * kPi * k / n), radius * std::sin(2 * kPi * k / n), z});
+  return polygon;
+}
+
+std::vector<Polygon> cube(int n) {
+  std::vector<Polygon> patches;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int wall = 0; wall < 2; ++wall)
+      for (int i = 0; i < n * n; ++i) {
+        const auto corner = [&](int a, int b) {
+          Vec3 x;
+          x[axis] = wall;
+          x[(axis + 1) % 3] = static_cast<double>(i / n + a) / n;
+          x[(axis + 2) % 3] = static_cast<double>(i % n + b) / n;
+          return x;
+        };
+        const Polygon patch{{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}, {}};
+        patches.push_back(wall ? flipped(patch) : patch);
+      }
+  return patches;
+}
+
+}  // namespace
+
+TEST_CASE("every value and status of the table of pairs") {
+  const host::CsvTable table =
+      host::read_csv(std::string(URAD_SOURCE_DIR) + "/tests/vectors/pairs.csv");
+  for (const host::CsvRow& row : table.rows) {
+    INFO(row.cells[table.column("id")]);
+    const std::string& expected = row.cells[table.column("expected")];
+    const host::ParsedPolygon p = host::parse_polygon(row.cells[table.column("p")]);
+    const host::ParsedPolygon q = host::parse_polygon(row.cells[table.column("q")]);
+    if (p.status != host::PolygonStatus::ok || q.status != host::PolygonStatus::ok) {
+      CHECK(host::name(p.status == host::PolygonStatus::ok ? q.status : p.status) == expected);
+      continue;
+    }
+    const auto point = expected.find('.');
+    const double last_digit = std::pow(10.0, -static_cast<double>(expected.size() - point - 1));
+    CHECK(std::abs(reference_form_factor(p.polygon, q.polygon) - std::stod(expected)) <=
+          std::max(1e-14, last_digit));
+  }
+}
+
+TEST_CASE("closed forms: parallel and perpendicular rectangles of any size") {
+  families::Random random(41);
+  for (int draw = 0; draw < 500; ++draw) {
+    const double a = random.log_uniform(0.05, 20);
+    const double b = random.log_uniform(0.05, 20);
+    const double c = random.log_uniform(0.05, 5);
+    CHECK(std::abs(reference_form_factor(rectangle(a, b), flipped(rectangle(a, b, c))) -
+                   parallel_rectangles(a, b, c)) < 2e-13);  // the formula cancels, too
+    const Pair pair = hinge(kPi / 2, a, b, c);
+    CHECK(std::abs(reference_form_factor(pair.p, pair.q) - perpendicular_rectangles(a, b, c)) <
+          2e-13);
+  }
+}
+
+TEST_CASE("hinged unit squares at every angle") {
+  const double table[][2] = {
+      {1, 0.982997178574649},     {5, 0.920261908111222},      {30, 0.619028323090803},
+      {45, 0.483347695478878},    {60, 0.370905321150051},     {90, 0.200043776075403},
+      {120, 0.0866150011182761},  {135, 0.048309447801818},    {150, 0.0213453254126894},
+      {170, 0.00236205667876908}, {175, 0.000590290917433052}, {179, 2.36087831149832e-5}};
+  for (const auto& [degrees, expected] : table) {
+    const Pair pair = hinge(degrees * kPi / 180);
+    CHECK(std::abs(reference_form_factor(pair.p, pair.q) - expected) < 2e-15);
+  }
+}
+
+TEST_CASE("polygons with many corners: inscribed discs") {
+  CHECK(std::abs(reference_form_factor(disc(8, 1, 0), flipped(disc(8, 1, 1))) - 0.363710714422825) <
+        1e-14);
+  CHECK(std::abs(reference_form_factor(disc(64, 1, 0), flipped(disc(64, 1, 1))) -
+                 0.381691438558507) < 1e-14);
+  // Coaxial discs [Howell, C-41]; a polygon of n corners with the disc's area misses it by O(n^-2).
+  const double cases[][4] = {{1, 1, 1, 0.381966011250105},
+                             {1, 1, 3, 0.0916730868040156},
+                             {1, 1, 0.1, 0.904875078027497},
+                             {0.5, 1, 1, 0.468871125850725},
+                             {1, 2, 10, 0.0381090695350537}};
+  const int n = 128;
+  const double grow = std::sqrt(2 * kPi / n / std::sin(2 * kPi / n));
+  for (const auto& [r1, r2, h, expected] : cases)
+    CHECK(reference_form_factor(disc(n, grow * r1, 0), flipped(disc(n, grow * r2, h))) ==
+          doctest::Approx(expected).epsilon(1e-4));
+}
+
+TEST_CASE("the rows of a closed room sum to one") {
+  for (const int n : {1, 3, 7}) {
+    const std::vector<Polygon> patches = cube(n);
+    double largest = 0;
+    double smallest = 1;
+    for (std::size_t i = 0; i < patches.size(); i += n == 7 ? 13 : 1) {
+      double sum = 0;
+      for (const Polygon& other : patches) {
+        const double f = reference_form_factor(patches[i], other);
+        sum += f;
+        largest = std::max(largest, f);
+        if (f > 0) smallest = std::min(smallest, f);
+      }
+      CHECK(std::abs(sum - 1) < 1e-13);
+    }
+    CHECK(largest <= 0.200043776075404);
+    if (n == 7) CHECK(smallest == doctest::Approx(6.08e-5).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a hole takes away what its filling would have given") {
+  families::Random random(42);
+  for (int draw = 0; draw < 100; ++draw) {
+    Polygon plate = rectangle(3, 3);
+    const Polygon filling = rectangle(1, 1.5, 0, 1, 0.5);
+    const Polygon other = families::rotated({flipped(rectangle(2, 1, 1)), {}}, &random).p;
+    const double whole = reference_exchange(plate, other);
+    plate.holes = {draw % 2 ? filling.outer : flipped(filling).outer};
+    const double part = reference_exchange(filling, other);
+    CHECK(std::abs(reference_exchange(plate, other) + part - whole) < 1e-14);
+  }
+}
