@@ -1,16 +1,13 @@
 #include "fixtures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 
-#include "form_factor/lambert.hpp"
+#include "accuracy/pair_sets.hpp"
 #include "form_factor/reference.hpp"
-#include "geometry/validate.hpp"
-#include "network/general_pairs.hpp"
 #include "network/random.hpp"
 #include "scene/builtin.hpp"
 #include "weights/cube7.h"
@@ -20,14 +17,8 @@ namespace fixtures {
 
 namespace {
 
-using host::Polygon;
-using host::Random;
-using host::Vec3;
-
 constexpr std::uint64_t kSeed = 1996;
-constexpr int kPerDecade = 1000;
-constexpr std::array kDecades = {1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
-constexpr int kRoomPairs = 5000;
+constexpr std::size_t kPerDecade = 1000, kRoomPairs = 5000;
 
 PairSet cube_pairs() {
   PairSet set;
@@ -45,79 +36,26 @@ PairSet cube_pairs() {
   return set;
 }
 
-void add(PairSet* set, const Polygon& p, const Polygon& q, double exact) {
-  const Polygon& kept_p = set->polygons.emplace_back(p);
-  const Polygon& kept_q = set->polygons.emplace_back(q);
+void add(PairSet* set, const host::Polygon& p, const host::Polygon& q, double exact) {
+  const host::Polygon& kept_p = set->polygons.emplace_back(p);
+  const host::Polygon& kept_q = set->polygons.emplace_back(q);
   const host::FixedScene& fixed = set->fixed.emplace_back(host::FixedScene::of_polygons({p, q}, {}));
   set->pairs.push_back({&kept_p, &kept_q, &fixed, 0, 1, exact});
 }
 
-/// Four corners by a random walk about a random plane; empty when it leaves the unit cube, crosses itself or is a sliver.
-Polygon random_quad(Random& random) {
-  Vec3 x(random.uniform(), random.uniform(), random.uniform());
-  const auto direction = [&] { return glm::normalize(Vec3(random.normal(), random.normal(), random.normal())); };
-  const Vec3 normal = direction(), u = glm::normalize(glm::cross(normal, direction())), v = glm::cross(normal, u);
-  const double step = random.log_uniform(0.02, 1);
-  Polygon quad;
-  for (int k = 0; k < 4; ++k, x += step * (random.uniform(-1, 1) * u + random.uniform(-1, 1) * v)) quad.outer.push_back(x);
-  for (int k = 0; k < 4; ++k) {
-    const Vec3 corner = quad.outer[std::size_t(k)];
-    if (glm::any(glm::lessThan(corner, Vec3(0))) || glm::any(glm::greaterThan(corner, Vec3(1)))) return {};
-    if (glm::distance(corner, quad.outer[std::size_t(k + 1) % 4]) < 0.01) return {};
-  }
-  return host::validate(quad) == host::PolygonStatus::ok && host::moments(quad).area >= 1e-4 ? quad : Polygon{};
-}
-
-/// -1, 0, 1: `quad` lies behind, across or in front of the plane of `plane`.
-int side(const Polygon& quad, const host::Moments& plane) {
-  constexpr double kMargin = 1e-3;
-  int front = 0, behind = 0;
-  for (const Vec3& x : quad.outer) {
-    const double distance = glm::dot(plane.normal, x - plane.centroid);
-    front += distance > kMargin;
-    behind += distance < -kMargin;
-  }
-  return front == 4 ? 1 : behind == 4 ? -1 : 0;
-}
-
-std::size_t decade_of(double f) {
-  return std::size_t(std::upper_bound(kDecades.begin(), kDecades.end(), f) - kDecades.begin());
-}
-
-PairSet free_pairs() {
+PairSet quads(const std::vector<host::PairSet>& drawn) {
   PairSet set;
-  Random random(kSeed);
-  std::array<int, kDecades.size() + 1> count{};
-  const auto full = [&](double f) {
-    const std::size_t decade = decade_of(f);
-    return decade == 0 || decade == kDecades.size() || count[decade] == kPerDecade;
-  };
-  while (set.pairs.size() < kPerDecade * (kDecades.size() - 1)) {
-    Polygon p = random_quad(random), q = random_quad(random);
-    if (p.outer.empty() || q.outer.empty()) continue;
-    const int p_side = side(p, host::moments(q)), q_side = side(q, host::moments(p));
-    if (p_side == 0 || q_side == 0) continue;
-    if (p_side < 0) std::reverse(q.outer.begin(), q.outer.end());  // the sides that face each other are lit
-    if (q_side < 0) std::reverse(p.outer.begin(), p.outer.end());
-    const double about = host::lambert_estimate(p, q, 1).f;  // saves the reference where nothing is wanted any more
-    if (full(about) && full(about / 2) && full(about * 2)) continue;
-    const double exact = host::reference_form_factor(p, q);
-    if (full(exact)) continue;
-    ++count[decade_of(exact)];
-    add(&set, p, q, exact);
+  for (const host::PairSet& part : drawn) {
+    for (std::size_t k = 0; k < part.pairs.size(); ++k) add(&set, part.pairs[k].p, part.pairs[k].q, part.exact[k]);
   }
   return set;
 }
 
-PairSet room_pairs() {
-  PairSet set;
+PairSet make(const std::string& name) {
+  if (name == "cube") return cube_pairs();
   const std::uint64_t seed = host::general_seed(kSeed, host::PairUse::test);
-  for (std::uint64_t k = 0; set.pairs.size() < kRoomPairs; ++k) {
-    const host::PolygonPair pair = host::general_pair(host::PairFamily::room, seed, k);
-    const double exact = host::reference_form_factor(pair.p, pair.q);
-    if (exact > 0) add(&set, pair.p, pair.q, exact);
-  }
-  return set;
+  return quads(name == "free" ? host::free_quads_by_decade(seed, kPerDecade, 0)
+                              : std::vector{host::room_pairs(seed, kRoomPairs, 0)});
 }
 
 const urad_net* shipped(const std::string& name) {
@@ -135,9 +73,8 @@ const PairSet& pair_set(const std::string& name) {
   static std::map<std::string, PairSet> sets;
   const auto found = sets.find(name);
   if (found != sets.end()) return found->second;
-  PairSet& set = sets[name] = name == "cube" ? cube_pairs() : name == "free" ? free_pairs() : room_pairs();
-  Random random(kSeed);
-  random.shuffle(set.pairs);
+  PairSet& set = sets[name] = make(name);
+  host::Random(kSeed).shuffle(set.pairs);
   return set;
 }
 

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,16 +36,12 @@ struct PairSet {
 };
 
 /// "cube": the 72,030 ordered pairs of cube7 on different walls. "free": two quads anywhere in the unit cube, each a
-/// random walk in a random plane, each wholly in front of the other [Martin 1996, section 3.2], a thousand in each of the
-/// decades 1e-6..1e-4, ..1e-3, ..1e-2, ..1e-1, ..1. "room": 5,000 patches of adjoining or opposite meshed walls.
-/// Made at the first call.
+/// random walk in a random plane [Martin 1996, section 3.2], a thousand for each decade of F from 1e-6 to 1. "room": 5,000
+/// pairs of patches of meshed rooms. No network was trained on them. Made at the first call.
 const PairSet& pair_set(const std::string& name);
 
 /// A built-in scene with its exact solution, made at the first call.
 host::SceneSolver& solver(const std::string& scene);
-
-/// Factors of all pairs of a set, in order.
-using Factors = std::function<std::vector<double>(const std::vector<Pair>&)>;
 
 struct Errors {
   double median, p95, p99;  ///< relative, of pairs with light

@@ -73,7 +73,7 @@ TEST_CASE("families of random pairs touch as they say") {
 TEST_CASE(
     "training, validation and test pairs of a seed have none in common, nor with the next seed") {
   std::set<double> seen;
-  for (const std::uint64_t seed : {1, 2})
+  for (const std::uint64_t seed : {1u, 2u})
     for (const auto use : {host::PairUse::training, host::PairUse::validation, host::PairUse::test})
       for (std::uint64_t k = 0; k < 50; ++k)
         CHECK(

@@ -10,6 +10,7 @@
 #include "form_factor/kernel.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/form_factor.hpp"
+#include "urad/grid.hpp"
 
 namespace {
 
@@ -134,4 +135,20 @@ TEST_CASE("pairs that face away, lie in one plane or behind give exactly 0") {
     CHECK(engine_factor(p, q, urad::Kernel::moment) == 0);
     CHECK(engine_factor(q, p, urad::Kernel::moment) == 0);
   }
+}
+
+TEST_CASE("a distance just below a power of two does not overflow the direction") {
+  const auto facing = [](std::int32_t height) {
+    urad_grid grid[2];
+    const std::int32_t s = 1 << 17;
+    REQUIRE(urad::grid_make({0, 0, 0}, {s, 0, 0}, {0, s, 0}, 1, 1, &grid[0]) == urad::Status::ok);
+    REQUIRE(urad::grid_make({0, 0, height}, {0, s, 0}, {s, 0, 0}, 1, 1, &grid[1]) == urad::Status::ok);
+    urad::Pair pair;
+    const urad_point below{s / 2, s / 2, 0}, above{s / 2, s / 2, height};
+    REQUIRE(urad::pair_invariants(grid[0].shape, below, grid[1].shape, above, &pair));
+    return pair;
+  };
+  const urad::Pair at = facing(1 << 20), under = facing((1 << 20) - 1);
+  CHECK(std::abs(at.log2_kernel_q24 - under.log2_kernel_q24) < 100);
+  CHECK(std::abs(at.log2_bend_q24 - under.log2_bend_q24) < 200);
 }

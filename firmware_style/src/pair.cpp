@@ -129,10 +129,11 @@ bool pair_invariants(const urad_shape& i, const urad_point& centroid_i, const ur
   const int32_t log2_r_q24 = shift_down(log2_r2_q24, 1);
   const int32_t log2_distance2_q24 = log2_r2_q24 - (up << 25);
 
-  // w = r / R: both factors below 2^16 + 1, the product below 2^30 because |w| <= 1.
+  // w = r / R: 16 bits of r times 17 of 1/R, the product below 2^30 because |w| <= 1. In 64 bits, because the greatest
+  // component of r may round up to 2^31.
   const int32_t inverse_uq15 = int32_t(exp2_uq((16 << 24) - log2_r_q24, 30));
   const auto direction = [=](int32_t x) {
-    return round_shift(round_shift(x, 16) * inverse_uq15, 15);
+    return round_shift(int32_t(round_shift(int64_t{x}, 16)) * inverse_uq15, 15);
   };
   const Vec15 w{direction(r.x), direction(r.y), direction(r.z)};
   const Vec15 n_i = unit_q15(i.normal_q30), n_j = unit_q15(j.normal_q30);

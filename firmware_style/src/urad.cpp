@@ -1,6 +1,7 @@
 // urad.cpp -- the C interface: null and range checks, then the C++ function of the same name.
 #include "urad/urad.h"
 
+#include "urad/grid.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/network.hpp"
 #include "urad/radiosity.hpp"
@@ -52,6 +53,11 @@ extern "C" {
 urad_status urad_scene_check(const urad_scene* scene) { return c_status(urad::scene_check(scene)); }
 
 urad_status urad_net_check(const urad_net* net) { return c_status(urad::network_check(net)); }
+
+urad_status urad_grid_make(urad_point origin, urad_point step_u, urad_point step_v,
+                           uint16_t count_u, uint16_t count_v, urad_grid* grid) {
+  return c_status(urad::grid_make(origin, step_u, step_v, count_u, count_v, grid));
+}
 
 urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to, unsigned kernel,
                              const urad_net* net, uint16_t rays, uint32_t* f_uq32,

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   tool::add_train(app, common);
   tool::add_export(app, common);
   tool::add_evaluate(app, common);
+  tool::add_accuracy(app, common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {

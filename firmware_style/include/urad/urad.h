@@ -50,6 +50,17 @@ urad_status urad_scene_check(const urad_scene* scene);
  * URAD_BAD_NET; a null net is URAD_BAD_NET too. */
 urad_status urad_net_check(const urad_net* net);
 
+/* ---- geometry ------------------------------------------------------------------------------ */
+
+/* A grid of count_u x count_v patches: patch (u, v) has its corner at origin + u step_u + v step_v
+ * and its lit side along step_u x step_v. For geometry that is made or moved on the chip; exporters
+ * write grids themselves.
+ *   grid  written on success
+ * Failure: URAD_BAD_ARGUMENT when a count is 0, the steps are parallel, or a corner leaves
+ * URAD_COORDINATE_MAX. */
+urad_status urad_grid_make(urad_point origin, urad_point step_u, urad_point step_v,
+                           uint16_t count_u, uint16_t count_v, urad_grid* grid);
+
 /* ---- form factors -------------------------------------------------------------------------- */
 
 enum { URAD_KERNEL_CENTRE = 0, URAD_KERNEL_MOMENT = 1 };

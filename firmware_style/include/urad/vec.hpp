@@ -21,8 +21,8 @@ constexpr int32_t plane_distance(const urad_point& normal_q30, const urad_point&
   return int32_t(round_shift(dot(normal_q30, x - on), 30));
 }
 
-/// Distances up to this count as "on the plane". A coordinate is off by half a unit, the normal by
-/// 2^-31 of at most 2^30 units, both on two points: below 4 scene units, 2^-27 of the scene's box.
-inline constexpr int32_t kPlaneTolerance = 4;
+/// Distances up to this count as "on the plane", 2^-23 of the scene's box. A coordinate is off by half a unit and the
+/// normal by 2^-31 of at most 2^30 units; the step of a grid is off by a unit, which adds up along its patches.
+inline constexpr int32_t kPlaneTolerance = 64;
 
 }  // namespace urad

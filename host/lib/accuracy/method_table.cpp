@@ -14,8 +14,8 @@ namespace host {
 
 namespace {
 
-constexpr std::size_t kChunk = 256;         // pairs that are prepared at once
-constexpr double kLeastNs = 2e6;            // passes over the same pairs take at least this together
+constexpr std::size_t kChunk = 256;  // pairs that are prepared at once
+constexpr double kLeastNs = 2e6;     // passes over the same pairs take at least this together
 constexpr double kPerFactor = 1.0 / 4294967296.0;
 
 /// Time of the fastest pass. Others may use the machine, too.
@@ -89,7 +89,8 @@ Values scene_by_engine(const Scene& scene, const TableMethod& method) {
   EngineRows rows;
   EngineOptions options;
   options.rays = 0;
-  values.ns = fastest_ns(false, [&] { rows = engine_rows(fixed, method.spec, method.nets, options, 1); });
+  values.ns =
+      fastest_ns(false, [&] { rows = engine_rows(fixed, method.spec, method.nets, options, 1); });
   for (const std::uint32_t f_uq32 : rows.f_uq32) values.f.push_back(f_uq32 * kPerFactor);
   return values;
 }
@@ -117,9 +118,8 @@ std::vector<SceneMethodRow> measure_scene(const Scene& scene, const SceneDataset
   std::vector<SceneMethodRow> rows;
   const std::size_t n = scene.patches.size();
   for (const TableMethod& method : methods) {
-    const Values values = is_engine_method(method.spec)
-                              ? scene_by_engine(scene, method)
-                              : scene_by_vertices(scene, dataset, method);
+    const Values values = is_engine_method(method.spec) ? scene_by_engine(scene, method)
+                                                        : scene_by_vertices(scene, dataset, method);
     SceneMethodRow row;
     row.table = evaluate(method.label, dataset,
                          [&](std::size_t i, std::size_t j) { return values.f[i * n + j]; });

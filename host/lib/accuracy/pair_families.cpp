@@ -111,7 +111,8 @@ Polygon random_quad(Random& random) {
     for (int k = 0; k < 4 && inside; ++k) {
       quad.outer.push_back(x);
       const double angle = random.uniform(0, 2 * kPi), length = random.uniform(kLeastEdge, 1);
-      inside = glm::all(glm::greaterThanEqual(x, Vec3(0))) && glm::all(glm::lessThanEqual(x, Vec3(1)));
+      inside =
+          glm::all(glm::greaterThanEqual(x, Vec3(0))) && glm::all(glm::lessThanEqual(x, Vec3(1)));
       x += length * (std::cos(angle) * axes[0] + std::sin(angle) * axes[1]);
     }
     if (inside && validate(quad) == PolygonStatus::ok && moments(quad).area >= kLeastArea)
@@ -143,7 +144,9 @@ std::vector<DegenerateFamily> degenerate_families() {
       {"shared edge, nearly closed",
        [](Random& r) { return rotated(free_hinge(r, kDegree * r.log_uniform(1e-6, 0.1)), r); }},
       {"shared edge, nearly coplanar",
-       [](Random& r) { return rotated(free_hinge(r, 180 - kDegree * r.log_uniform(1e-6, 0.1)), r); }},
+       [](Random& r) {
+         return rotated(free_hinge(r, 180 - kDegree * r.log_uniform(1e-6, 0.1)), r);
+       }},
       {"shared vertex, rotated", shared_vertex},
       {"parallel squares, turned by 1e-16 to 1e-4",
        [](Random& r) { return disturbed_squares(r, r.log_uniform(1e-16, 1e-4), 0); }},

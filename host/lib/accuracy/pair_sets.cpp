@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kLowest = -6, kDecades = 6;
 constexpr std::size_t kBatch = 4096;
-constexpr double kKernelWithin = 30;  // farther off than that the kernel is not, for pairs that matter here
+constexpr double kKernelWithin =
+    30;  // farther off than that the kernel is not, for pairs that matter here
 
 /// 0 .. kDecades - 1, or -1.
 int decade_of(double f) {
@@ -36,7 +37,8 @@ Draw draw(std::uint64_t seed, std::size_t index, const std::vector<PairSet>& set
   Random random(seed, index);
   Draw result{random_facing_quads(random)};
   const double about = moment_kernel_estimate(result.pair.p, result.pair.q).f;
-  const int low = std::max(0, decade_of(std::max(about / kKernelWithin, 2 * std::pow(10, kLowest))));
+  const int low =
+      std::max(0, decade_of(std::max(about / kKernelWithin, 2 * std::pow(10, kLowest))));
   const int high = std::max(low, decade_of(std::min(about * kKernelWithin, 0.99)));
   for (int d = low; d <= high; ++d) {
     if (sets[std::size_t(d)].pairs.size() == per_decade) continue;
@@ -51,8 +53,8 @@ Draw draw(std::uint64_t seed, std::size_t index, const std::vector<PairSet>& set
 std::vector<PairSet> free_quads_by_decade(std::uint64_t seed, std::size_t per_decade, int threads) {
   std::vector<PairSet> sets(kDecades);
   for (int d = 0; d < kDecades; ++d)
-    sets[std::size_t(d)].name = fmt::format("F 1e{}..{}", kLowest + d,
-                                            d + 1 < kDecades ? fmt::format("1e{}", kLowest + d + 1) : "1");
+    sets[std::size_t(d)].name = fmt::format(
+        "F 1e{}..{}", kLowest + d, d + 1 < kDecades ? fmt::format("1e{}", kLowest + d + 1) : "1");
   const auto full = [&](const PairSet& set) { return set.pairs.size() == per_decade; };
   for (std::size_t first = 0; !std::all_of(sets.begin(), sets.end(), full); first += kBatch) {
     std::vector<Draw> draws(kBatch);

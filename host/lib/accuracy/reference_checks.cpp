@@ -21,8 +21,8 @@ void count(const PolygonPair& pair, double f, HostileCheck* check) {
   if (f > 1) ++check->above_one;
   const double area_p = moments(pair.p).area, area_q = moments(pair.q).area;
   const double back = reference_form_factor(pair.q, pair.p);
-  check->asymmetry = std::max(check->asymmetry, std::fabs(area_p * f - area_q * back) /
-                                                    std::min(area_p, area_q));
+  check->asymmetry =
+      std::max(check->asymmetry, std::fabs(area_p * f - area_q * back) / std::min(area_p, area_q));
 }
 
 // Draw `index` of a family, whatever the order of evaluation.

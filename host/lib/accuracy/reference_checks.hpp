@@ -33,7 +33,7 @@ struct ScaleCheck {
 ScaleCheck check_scales(std::uint64_t seed, std::size_t draws, int threads);
 
 struct RowCheck {
-  double worst = 0;              ///< |row sum - 1|
+  double worst = 0;                  ///< |row sum - 1|
   double largest = 0, smallest = 1;  ///< F above 0
 };
 /// Rows of a closed scene.

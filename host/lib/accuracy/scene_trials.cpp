@@ -30,11 +30,13 @@ class NearHybrid {
     std::vector<double> scratch(2 * quarter);
     top_.resize(quarter), side_.resize(quarter);
     urad::fill_hemicube_cells(resolution, scratch.data(), top_.data(), side_.data());
-    memory_.resize(urad::hemicube_bytes(std::uint16_t(resolution), 0, scene.patch_count, false) / 4 + 1);
+    memory_.resize(
+        urad::hemicube_bytes(std::uint16_t(resolution), 0, scene.patch_count, false) / 4 + 1);
     const urad::HemicubeTable table{std::uint16_t(resolution), top_.data(), side_.data()};
     if (urad::hemicube_init(&hemicube_, &scene, table, 0, urad::hemicube_turned, memory_.data(),
                             4 * memory_.size(), &counters_) != urad::Status::ok ||
-        urad::hybrid_init(&hybrid_, &hemicube_, urad::Kernel::moment, &net, 1, near_rho) != urad::Status::ok)
+        urad::hybrid_init(&hybrid_, &hemicube_, urad::Kernel::moment, &net, 1, near_rho) !=
+            urad::Status::ok)
       throw Error("a hemicube without item buffer needs a convex scene");
   }
   urad_source source() { return {urad::hybrid_fill, &hybrid_}; }
@@ -95,7 +97,8 @@ ChipSolve solve_like_a_chip(SceneSolver& solver, const QuantisedNet& net) {
                                              run, memory.data(), bytes);
   while (status == urad::Status::ok && !urad::radiosity_done(state, URAD_PERCENT))
     status = urad::radiosity_step(&state);
-  if (status != urad::Status::ok) throw Error(scene.name + ": the engine could not solve it by network");
+  if (status != urad::Status::ok)
+    throw Error(scene.name + ": the engine could not solve it by network");
 
   std::vector<Vec3> light(scene.patches.size());
   for (std::size_t k = 0; k < light.size(); ++k)
@@ -118,7 +121,8 @@ HemicubeTrial try_hemicube(SceneSolver& solver, int resolution, int threads) {
   trial.rows = rows.patches;
   for (std::size_t i = 0; i < rows.patches; ++i) {
     const auto first = rows.f_uq32.begin() + std::ptrdiff_t(i * rows.patches);
-    const std::uint64_t sum = std::accumulate(first, first + std::ptrdiff_t(rows.patches), std::uint64_t(0));
+    const std::uint64_t sum =
+        std::accumulate(first, first + std::ptrdiff_t(rows.patches), std::uint64_t(0));
     if (sum == kWholeRow) ++trial.exact_rows;
   }
   return trial;

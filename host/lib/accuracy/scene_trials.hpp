@@ -28,7 +28,7 @@ SceneNetTrial try_scene_net(SceneSolver& solver, NetFile net);
 /// What a chip does: shoots until the engine's own estimate says 1 %.
 struct ChipSolve {
   int shots = 0;
-  double light = 0;         ///< relative rms of B against the exact solution
+  double light = 0;           ///< relative rms of B against the exact solution
   std::size_t ram_bytes = 0;  ///< of solver and source
   int net_bytes = 0;
 };
@@ -41,9 +41,10 @@ struct HemicubeTrial {
 };
 HemicubeTrial try_hemicube(SceneSolver& solver, int resolution, int threads);
 
-/// Light by a hemicube whose factors of near pairs, rho > near_rho_uq16 / 65536, are the network's: relative rms of the
-/// converged B. For convex scenes.
-double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution, std::uint32_t near_rho_uq16);
+/// Light by a hemicube whose factors of near pairs, rho > near_rho_uq16 / 65536, are the network's:
+/// relative rms of the converged B. For convex scenes.
+double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution,
+                            std::uint32_t near_rho_uq16);
 
 /// rho of two parallel-sided squares of side 1 whose centres are `distance` apart, UQ16.16.
 std::uint32_t near_rho_uq16(double distance);

@@ -1,0 +1,173 @@
+#include "accuracy/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "report/text.hpp"
+
+namespace host {
+
+namespace {
+
+constexpr double kExact = 1e-12;
+constexpr double kHybridPlates = 1e-2, kRayPlates = 3e-3;
+constexpr double kOwnStd = 3e-5, kOwnRow = 0.003, kGeneralStd = 6e-4, kHemicubeStd = 8e-4;
+constexpr double kNetLight = 0.003, kNearLight = 0.01, kCornellLight = 0.03, kChipLight = 0.01;
+constexpr double kLargestOfCube = 0.200043776075403, kSmallestOfCube = 6.08e-5;
+constexpr std::size_t kChipRam = 16 * 1024, kChipFlash = 256 * 1024;
+
+using List = std::vector<Bound>;
+
+void add_reference(const AccuracyResults& r, List* list) {
+  list->push_back({fmt::format("reference, {} unoccluded polygon values", r.known.cases),
+                   "1e-12 or the last printed digit",
+                   fmt::format("worst error {:.1e}; {:.2g} of its bound at most ({})",
+                               r.known.worst, r.known.of_bound, r.known.worst_name),
+                   r.known.of_bound <= 1});
+  const RowCheck& rows = r.cube_rows;
+  const bool known_ends = std::fabs(rows.largest - kLargestOfCube) <= kExact &&
+                          std::fabs(rows.smallest - kSmallestOfCube) <= 1e-7;
+  list->push_back({"reference, rows of cube7", "sum to 1 within 1e-12",
+                   fmt::format("worst {:.1e}; F from {:.3g} to {:.15g}", rows.worst, rows.smallest,
+                               rows.largest),
+                   rows.worst <= kExact && known_ends});
+  HostileCheck all;
+  for (const HostileCheck& check : r.hostile) {
+    all.draws += check.draws;
+    all.not_finite += check.not_finite;
+    all.negative += check.negative;
+  }
+  list->push_back(
+      {fmt::format("reference, {} degenerate families, {} pairs", r.hostile.size(), all.draws),
+       "no NaN, none negative",
+       fmt::format("{} not finite, {} negative", all.not_finite, all.negative),
+       all.not_finite + all.negative == 0});
+  const ScaleCheck& scales = r.scales;
+  list->push_back(
+      {fmt::format("reference, scales 1e-12 to 1e12, {} pairs", scales.counts.draws),
+       "no NaN, none negative",
+       fmt::format("{} not finite, {} negative; F changes by {:.1e} at most",
+                   scales.counts.not_finite, scales.counts.negative, scales.worst_change),
+       scales.counts.not_finite + scales.counts.negative == 0});
+}
+
+void add_occluded(const std::string& what, const std::vector<OccludedCheck>& checks, List* list) {
+  const double hybrid =
+      worst_of(checks, [](const OccludedCheck& c) { return std::fabs(c.hybrid - c.f); });
+  const double rays =
+      worst_of(checks, [](const OccludedCheck& c) { return std::fabs(c.rays - c.f); });
+  list->push_back({what + ", hybrid:64 with --subdivide 4", "1e-2", fmt::format("{:.1e}", hybrid),
+                   hybrid <= kHybridPlates});
+  list->push_back({what + ", rays:256", "3e-3", fmt::format("{:.1e}", rays), rays <= kRayPlates});
+}
+
+void add_cube_factors(const AccuracyResults& r, List* list) {
+  const double std = worst_of(r.cube7, [](const SceneNetTrial& t) { return t.factors.std; });
+  const double row = worst_of(r.cube7, [](const SceneNetTrial& t) { return t.factors.row_worst; });
+  const double held = worst_of(r.cube7, [](const SceneNetTrial& t) { return t.held_out_std; });
+  list->push_back({fmt::format("cube7, network trained for it (H = {}, int16), {} off-wall pairs",
+                               r.request.scene_hidden, r.cube7.front().factors.pairs),
+                   "std of error <= 3e-5",
+                   fmt::format("{:.2e}; on held-out configurations {:.2e}", std, held),
+                   std <= kOwnStd});
+  list->push_back(
+      {"the same, worst row sum before repair", "<= 0.3 %", percent(row), row <= kOwnRow});
+
+  const double general = worst_of(r.general, [](const GeneralTrial& t) { return t.cube7.std; });
+  const double centre = row_of(r.cube7_methods, "fixed-kernel").row.errors.std;
+  const double moment = row_of(r.cube7_methods, "fixed-moment").row.errors.std;
+  list->push_back(
+      {"cube7, general network that never saw it", "std <= 6e-4, and better than both kernels",
+       fmt::format("{:.2e}; centre kernel {:.2e}, moment kernel {:.2e}", general, centre, moment),
+       general <= kGeneralStd && general < std::min(centre, moment)});
+
+  const HemicubeTrial& cube = r.hemicube;
+  list->push_back({"cube7, hemicube:64, turned", "std <= 8e-4, every row sums to exactly 1",
+                   fmt::format("{:.2e}; {} of {} rows exact to the last unit of 2^-32",
+                               cube.factors.std, cube.exact_rows, cube.rows),
+                   cube.factors.std <= kHemicubeStd && cube.exact_rows == cube.rows});
+}
+
+void add_light(const AccuracyResults& r, List* list) {
+  const auto self = [](double x) { return x; };
+  const double net = worst_of(r.cube7, [](const SceneNetTrial& t) { return t.light; });
+  list->push_back(
+      {"radiosity of cube7 by network, converged", "<= 0.3 % rms", percent(net), net <= kNetLight});
+
+  const double near_4 = worst_of(r.near_4, self), near_3 = worst_of(r.near_3, self);
+  const double general = worst_of(r.general, [](const GeneralTrial& t) { return t.near_hybrid; });
+  list->push_back(
+      {"radiosity of cube7 by hemicube:32, network factors for pairs with less than 3 patches "
+       "between "
+       "them (centres closer than 4)",
+       "<= 1 % rms",
+       fmt::format("{} with its own networks, {} with general ones", percent(near_4),
+                   percent(general)),
+       std::max(near_4, general) <= kNearLight});
+  list->push_back({"the same, literally centres closer than 3 patches", "<= 1 % rms",
+                   percent(near_3), near_3 <= kNearLight});
+
+  const double cornell = worst_of(r.cornell, [](const CornellTrial& t) { return t.light; });
+  list->push_back({"Cornell box by hybrid:64, against Embree visibility (1024 rays a pair)",
+                   "<= 3 % rms",
+                   fmt::format("{} with its own networks, {} with a general one", percent(cornell),
+                               percent(r.cornell_general)),
+                   std::max(cornell, r.cornell_general) <= kCornellLight});
+}
+
+void add_chip(const AccuracyResults& r, List* list) {
+  const double light = worst_of(r.chip, [](const ChipSolve& c) { return c.light; });
+  const int shots = int(worst_of(r.chip, [](const ChipSolve& c) { return c.shots; }));
+  const ChipSolve& first = r.chip.front();
+  list->push_back(
+      {"cube7 on the micro:bit by network, stopped by its own estimate of 1 %", "1 % rms",
+       fmt::format("{} after {} shots at most; these integers, on the host", percent(light), shots),
+       light <= kChipLight});
+  list->push_back(
+      {"the same, memory", "16 KB RAM, 256 KB flash",
+       fmt::format(
+           "solver and source {}, network {}; the linker refuses an image that does not fit",
+           bytes_text(std::int64_t(first.ram_bytes)), bytes_text(first.net_bytes)),
+       first.ram_bytes <= kChipRam && std::size_t(first.net_bytes) <= kChipFlash
+           ? std::nullopt
+           : std::optional<bool>(false)});
+  list->push_back({"the same, integers", "those of the host",
+                   "compared by `./run demo` and by the test firmware_microbit", std::nullopt});
+  if (!r.solve_instructions) {
+    list->push_back({"the same, Cortex-M0 instructions", "shown",
+                     "not counted in this run: `./run demo`, then `./run accuracy --instructions "
+                     "out/demo/boards/icount.json`",
+                     std::nullopt});
+    return;
+  }
+  std::string text = fmt::format("{} to 1 %", grouped(std::llround(*r.solve_instructions)));
+  if (r.shot_instructions)
+    text += fmt::format(", {} a shot", grouped(std::llround(*r.shot_instructions)));
+  if (r.pair_instructions)
+    text += fmt::format(", {} a pair", grouped(std::llround(*r.pair_instructions)));
+  list->push_back({"the same, Cortex-M0 instructions", "shown", text, true});
+}
+
+}  // namespace
+
+const SceneMethodRow& row_of(const std::vector<SceneMethodRow>& table, const std::string& label) {
+  for (const SceneMethodRow& row : table)
+    if (row.row.label == label) return row;
+  throw std::out_of_range("no method " + label + " in the table");
+}
+
+std::vector<Bound> bounds(const AccuracyResults& results) {
+  List list;
+  add_reference(results, &list);
+  add_occluded("square obstruction, in a corner and in the middle", results.squares, &list);
+  add_occluded(fmt::format("L-room, {} factors", results.l_room.size()), results.l_room, &list);
+  add_cube_factors(results, &list);
+  add_light(results, &list);
+  add_chip(results, &list);
+  return list;
+}
+
+}  // namespace host
