@@ -1,9 +1,10 @@
-// What do the parts of the engine cost on this machine, and what is the worst error of each? engine/PART. `worst` is
-// absolute or relative as the row says, over a sweep or a set of pairs; time is per call.
+// What do the parts of the engine cost on this machine, and what is the worst error of each?
+// engine/PART. `worst` is absolute or relative as the row says, over a sweep or a set of pairs;
+// time is per call.
 #include <cmath>
 
-#include "form_factor/kernel.hpp"
 #include "fixtures.hpp"
+#include "form_factor/kernel.hpp"
 #include "network/quantise.hpp"
 #include "network/random.hpp"
 #include "urad/clip.hpp"
@@ -19,7 +20,8 @@ constexpr std::size_t kInputs = 4096;
 
 /// Times f over inputs drawn by `draw`, one after the other.
 template <class Draw, class F>
-void time_function(benchmark::State& state, const char* error_name, double worst, const Draw& draw, const F& f) {
+void time_function(benchmark::State& state, const char* error_name, double worst, const Draw& draw,
+                   const F& f) {
   host::Random random(kSeed);
   std::vector<decltype(draw(random))> inputs;
   for (std::size_t k = 0; k < kInputs; ++k) inputs.push_back(draw(random));
@@ -34,20 +36,26 @@ void time_function(benchmark::State& state, const char* error_name, double worst
 void log2(benchmark::State& state) {
   double worst = 0;
   for (std::uint64_t x = 1; x < 1ull << 32; x += x / 50'021 + 1) {
-    worst = std::max(worst, std::fabs(urad::log2_q24(std::uint32_t(x)) * 0x1p-24 - std::log2(double(x))));
+    worst = std::max(worst,
+                     std::fabs(urad::log2_q24(std::uint32_t(x)) * 0x1p-24 - std::log2(double(x))));
   }
-  time_function(state, "worst_abs", worst, [](host::Random& random) { return std::uint32_t(random.log_uniform(1, 0x1p32)); },
-                [](std::uint32_t x) { return urad::log2_q24(x); });
+  time_function(
+      state, "worst_abs", worst,
+      [](host::Random& random) { return std::uint32_t(random.log_uniform(1, 0x1p32)); },
+      [](std::uint32_t x) { return urad::log2_q24(x); });
 }
 BENCHMARK(log2)->Name("engine/log2");
 
 void exp2(benchmark::State& state) {
   double worst = 0;
   for (std::int32_t x = 0; x < 1 << 24; x += 7) {
-    worst = std::max(worst, std::fabs(urad::exp2_uq(x, 30) / (0x1p30 * std::exp2(x * 0x1p-24)) - 1));
+    worst =
+        std::max(worst, std::fabs(urad::exp2_uq(x, 30) / (0x1p30 * std::exp2(x * 0x1p-24)) - 1));
   }
-  time_function(state, "worst_rel", worst, [](host::Random& random) { return std::int32_t(random.uniform(-0x1p28, 0)); },
-                [](std::int32_t x) { return urad::exp2_uq(x, 30); });
+  time_function(
+      state, "worst_rel", worst,
+      [](host::Random& random) { return std::int32_t(random.uniform(-0x1p28, 0)); },
+      [](std::int32_t x) { return urad::exp2_uq(x, 30); });
 }
 BENCHMARK(exp2)->Name("engine/exp2");
 
@@ -55,21 +63,26 @@ void rsqrt(benchmark::State& state) {
   double worst = 0;
   for (std::uint64_t x = 1; x < 1ull << 62; x += x / 5'021 + 1) {
     const int bits = 31 + int(std::log2(double(x)) / 2);  // the result has 30 bits and more
-    worst = std::max(worst, std::fabs(urad::rsqrt_uq(x, bits) * std::sqrt(double(x)) / std::exp2(bits) - 1));
+    worst = std::max(
+        worst, std::fabs(urad::rsqrt_uq(x, bits) * std::sqrt(double(x)) / std::exp2(bits) - 1));
   }
-  time_function(state, "worst_rel", worst, [](host::Random& random) { return std::uint64_t(random.log_uniform(1, 0x1p62)); },
-                [](std::uint64_t x) { return urad::rsqrt_uq(x, 31); });
+  time_function(
+      state, "worst_rel", worst,
+      [](host::Random& random) { return std::uint64_t(random.log_uniform(1, 0x1p62)); },
+      [](std::uint64_t x) { return urad::rsqrt_uq(x, 31); });
 }
 BENCHMARK(rsqrt)->Name("engine/rsqrt");
 
 void sigmoid(benchmark::State& state) {
   double worst = 0;
   for (int x = -32768; x <= 32767; ++x) {
-    worst = std::max(worst, std::fabs(urad::sigmoid_uq15(std::int16_t(x)) * 0x1p-15 - 1 / (1 + std::exp(-x / 2048.0))));
+    worst = std::max(worst, std::fabs(urad::sigmoid_uq15(std::int16_t(x)) * 0x1p-15 -
+                                      1 / (1 + std::exp(-x / 2048.0))));
   }
-  time_function(state, "worst_abs", worst,
-                [](host::Random& random) { return std::int16_t(random.uniform(-32767, 32768)); },
-                [](std::int16_t x) { return urad::sigmoid_uq15(x); });
+  time_function(
+      state, "worst_abs", worst,
+      [](host::Random& random) { return std::int16_t(random.uniform(-32767, 32768)); },
+      [](std::int16_t x) { return urad::sigmoid_uq15(x); });
 }
 BENCHMARK(sigmoid)->Name("engine/sigmoid");
 
@@ -88,7 +101,8 @@ void pair_invariants(benchmark::State& state) {
     if (!invariants(pair, &result)) return state.SkipWithError("a pair was refused");
     const double kernel = host::moment_kernel(host::moments(*pair.p), host::moments(*pair.q));
     const double log2_kernel = (result.log2_kernel_q24 + result.log2_bend_q24) * 0x1p-24;
-    worst = std::max(worst, std::fabs(log2_kernel - std::log2(kernel) - 2 * std::log2(pair.scene->units_per_length())));
+    worst = std::max(worst, std::fabs(log2_kernel - std::log2(kernel) -
+                                      2 * std::log2(pair.scene->units_per_length())));
   }
   std::size_t k = 0;
   for (auto _ : state) {
@@ -113,7 +127,8 @@ void network_run(benchmark::State& state) {
     if (inputs.size() == kInputs) break;
     if (!invariants(pair, &inputs.emplace_back())) return state.SkipWithError("a pair was refused");
     const std::int16_t* input_q15 = inputs.back().input_q15;
-    worst = std::max(worst, std::fabs(urad::network_run(quantised.pod(), input_q15) * 0x1p-16 - net.run(input_q15)));
+    worst = std::max(worst, std::fabs(urad::network_run(quantised.pod(), input_q15) * 0x1p-16 -
+                                      net.run(input_q15)));
   }
   std::size_t k = 0;
   for (auto _ : state) {
@@ -125,17 +140,19 @@ void network_run(benchmark::State& state) {
 }
 BENCHMARK(network_run)->Name("engine/network_run/H")->Arg(4)->Arg(8)->Arg(16);
 
-/// All 49 factors of the opposite or an adjoining wall by the network of the cube. Worst: of F, relative.
+/// All 49 factors of the opposite or an adjoining wall by the network of the cube. Worst: of F,
+/// relative.
 void grid_run(benchmark::State& state) {
   host::SceneSolver& solver = fixtures::solver("cube7");
   const host::FixedScene fixed(solver.scene());
   const urad_scene& scene = fixed.pod();
   urad_counters counters{};
-  urad::PairSource source{&scene, &fixtures::nets().find("cube7"), urad::Kernel::moment, 0, 0, &counters};
+  urad::PairSource source{&scene,   &fixtures::nets().find("cube7"), urad::Kernel::moment, 0, 0,
+                          &counters};
   std::vector<std::uint32_t> f_uq32(scene.patch_count);
   const auto fill = [&](std::uint16_t shooter, const urad_surface& to) {
-    return urad::pair_fill(&source, shooter, std::uint16_t(&to - scene.surface), to.first_patch, to.patch_count,
-                           f_uq32.data());
+    return urad::pair_fill(&source, shooter, std::uint16_t(&to - scene.surface), to.first_patch,
+                           to.patch_count, f_uq32.data());
   };
   double worst = 0;
   for (std::uint16_t s = 1; s < scene.surface_count; ++s) {
@@ -158,7 +175,8 @@ void grid_run(benchmark::State& state) {
 }
 BENCHMARK(grid_run)->Name("engine/run_of_49");
 
-/// Quads cut by the plane of another one. Worst: of the area left, relative, where at least a tenth is left.
+/// Quads cut by the plane of another one. Worst: of the area left, relative, where at least a tenth
+/// is left.
 void clip(benchmark::State& state) {
   struct Cut {
     host::FixedScene scene;
@@ -166,19 +184,25 @@ void clip(benchmark::State& state) {
   };
   host::Random random(kSeed);
   std::vector<Cut> cuts;
-  const auto point = [&] { return host::Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+  const auto point = [&] {
+    return host::Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  };
   double worst = 0;
   while (cuts.size() < kInputs) {
-    const host::Polygon quad{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {}}, plane{{point(), point(), point()}, {}};
+    const host::Polygon quad{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {}},
+        plane{{point(), point(), point()}, {}};
     const host::Moments whole = host::moments(quad), cutter = host::moments(plane);
     if (cutter.area < 0.1) continue;
-    const double left = host::moments(host::clip(quad, cutter.centroid, cutter.normal)).area / whole.area;
+    const double left =
+        host::moments(host::clip(quad, cutter.centroid, cutter.normal)).area / whole.area;
     if (left < 0.1 || left > 0.999) continue;
     const auto fixed = host::FixedScene::of_polygons({quad, plane}, {});
-    const Cut& cut = cuts.emplace_back(Cut{fixed, urad::patch_at(fixed.pod(), 0), urad::patch_at(fixed.pod(), 1)});
+    const Cut& cut = cuts.emplace_back(
+        Cut{fixed, urad::patch_at(fixed.pod(), 0), urad::patch_at(fixed.pod(), 1)});
     urad_shape shape;
     urad_point centroid;
-    if (!urad::clipped_shape(fixed.pod(), cut.patch, cut.plane.centroid, cut.plane.shape->normal_q30, &shape, &centroid)) {
+    if (!urad::clipped_shape(fixed.pod(), cut.patch, cut.plane.centroid,
+                             cut.plane.shape->normal_q30, &shape, &centroid)) {
       return state.SkipWithError("a cut was refused");
     }
     const double area = std::exp2((shape.log2_area_q24 - cut.patch.shape->log2_area_q24) * 0x1p-24);

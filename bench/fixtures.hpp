@@ -1,4 +1,5 @@
-// What the benchmarks share: networks, scenes, pairs with their exact factors, and errors of a method on them.
+// What the benchmarks share: networks, scenes, pairs with their exact factors, and errors of a
+// method on them.
 #pragma once
 #include <benchmark/benchmark.h>
 
@@ -16,10 +17,11 @@
 
 namespace fixtures {
 
-/// The shipped networks: "general" and "cube7".
+/// The shipped networks: "general", "cube7" and "cornell".
 const host::NetChoice& nets();
 
-/// One ordered pair, as the host's methods take it and as the engine does, with its factor by the reference.
+/// One ordered pair, as the host's methods take it and as the engine does, with its factor by the
+/// reference.
 struct Pair {
   const host::Polygon *p, *q;
   const host::FixedScene* scene;
@@ -27,7 +29,8 @@ struct Pair {
   double exact;
 };
 
-/// Pairs in random order (fixed seed), so that the first thousand stand for all. Owns what they point to.
+/// Pairs in random order (fixed seed), so that the first thousand stand for all. Owns what they
+/// point to.
 struct PairSet {
   std::deque<host::Scene> scenes;
   std::deque<host::Polygon> polygons;
@@ -35,9 +38,11 @@ struct PairSet {
   std::vector<Pair> pairs;
 };
 
-/// "cube": the 72,030 ordered pairs of cube7 on different walls. "free": two quads anywhere in the unit cube, each a
-/// random walk in a random plane [Martin 1996, section 3.2], a thousand for each decade of F from 1e-6 to 1. "room": 5,000
-/// pairs of patches of meshed rooms. No network was trained on them. Made at the first call.
+/// "cube": the 72,030 ordered pairs of cube7 on different walls. "free": two quads anywhere in the
+/// unit cube, each a random walk in a random plane, each wholly in front of the other [Martin 1996,
+/// section 3.2], a thousand in each of the decades 1e-6..1e-4, ..1e-3, ..1e-2, ..1e-1, ..1. "room":
+/// 5,000 pairs of patches of meshed rooms. No network was trained on these two. Made at the first
+/// call.
 const PairSet& pair_set(const std::string& name);
 
 /// A built-in scene with its exact solution, made at the first call.
@@ -52,8 +57,8 @@ Errors errors(const std::vector<Pair>& pairs, const std::vector<double>& factors
 /// Counters rel_median, rel_p95, rel_p99, rms, max.
 void show(benchmark::State& state, const Errors& errors);
 
-/// Counted Cortex-M0 instructions (bench/icount/run.sh): the file named by URAD_ICOUNT, else build/icount.json;
-/// nothing when there is no such file.
+/// Counted Cortex-M0 instructions (bench/icount/run.sh): the file named by URAD_ICOUNT, else
+/// build/icount.json; nothing when there is no such file.
 const std::optional<host::InstructionCounts>& instructions();
 
 /// Counter m0_instructions or m0_shot, where counted.

@@ -1,9 +1,11 @@
-// How fine a hemicube is fine enough? hemicube/SCENE/R: time per shot of a turned hemicube of resolution R.
+// How fine a hemicube is fine enough? hemicube/SCENE/R: time per shot of a turned hemicube of
+// resolution R.
 //
 //   f_std         deviation of F - exact over pairs of patches on different planes
 //   row_worst     largest |row sum - exact row sum|
-//   b_rms         relative rms of the radiosity that these factors converge to, against the exact one
-//   ram           bytes of the source on a chip; m0_shot: Cortex-M0 instructions per shot of the cube, counted
+//   b_rms         relative rms of the radiosity that these factors converge to, against the exact
+//   one ram           bytes of the source on a chip; m0_shot: Cortex-M0 instructions per shot of
+//   the cube, counted
 #include <array>
 
 #include "fixtures.hpp"
@@ -16,36 +18,39 @@ constexpr std::array kResolutions = {16, 32, 64, 128};
 constexpr double kConverged = 1e-4;  // of B against its own limit
 
 void add_row(const std::string& scene, const std::string& method) {
-  const auto row = [=, known = std::make_shared<std::optional<host::MethodRun>>()](benchmark::State& state) {
-    host::SceneSolver& solver = fixtures::solver(scene);
-    const host::MethodSpec spec = host::parse_method(method);
-    if (!*known) *known = solver.run(spec, fixtures::nets(), {std::nullopt, kConverged, true});
-    const host::MethodRun& run = **known;
-    const host::EngineSource source(solver.fixed(), spec, fixtures::nets(), {});
-    const std::uint16_t patches = solver.fixed().pod().patch_count;
-    std::vector<std::uint32_t> f_uq32(patches);
-    std::uint16_t shooter = 0;
-    for (auto _ : state) {
-      source.row(shooter, f_uq32.data());
-      benchmark::DoNotOptimize(f_uq32.data());
-      benchmark::ClobberMemory();
-      if (++shooter == patches) shooter = 0;
-    }
-    state.counters["f_std"] = run.factors.std;
-    state.counters["row_worst"] = run.factors.row_worst;
-    state.counters["b_rms"] = run.rms;
-    state.counters["ram"] = double(source.ram_bytes());
-    if (scene == "cube7" && fixtures::instructions()) {
-      fixtures::show_instructions(state, "m0_shot", fixtures::instructions()->per_shot(method));
-    }
-  };
+  const auto row =
+      [=, known = std::make_shared<std::optional<host::MethodRun>>()](benchmark::State& state) {
+        host::SceneSolver& solver = fixtures::solver(scene);
+        const host::MethodSpec spec = host::parse_method(method);
+        if (!*known) *known = solver.run(spec, fixtures::nets(), {std::nullopt, kConverged, true});
+        const host::MethodRun& run = **known;
+        const host::EngineSource source(solver.fixed(), spec, fixtures::nets(), {});
+        const std::uint16_t patches = solver.fixed().pod().patch_count;
+        std::vector<std::uint32_t> f_uq32(patches);
+        std::uint16_t shooter = 0;
+        for (auto _ : state) {
+          source.row(shooter, f_uq32.data());
+          benchmark::DoNotOptimize(f_uq32.data());
+          benchmark::ClobberMemory();
+          if (++shooter == patches) shooter = 0;
+        }
+        state.counters["f_std"] = run.factors.std;
+        state.counters["row_worst"] = run.factors.row_worst;
+        state.counters["b_rms"] = run.rms;
+        state.counters["ram"] = double(source.ram_bytes());
+        if (scene == "cube7" && fixtures::instructions()) {
+          fixtures::show_instructions(state, "m0_shot", fixtures::instructions()->per_shot(method));
+        }
+      };
   const std::string resolution = method.substr(method.find(':') + 1);
-  benchmark::RegisterBenchmark(("hemicube/" + scene + "/" + resolution).c_str(), row)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark(("hemicube/" + scene + "/" + resolution).c_str(), row)
+      ->Unit(benchmark::kMicrosecond);
 }
 
 const bool added = [] {
   for (const char* scene : kScenes) {
-    for (const int resolution : kResolutions) add_row(scene, "hemicube:" + std::to_string(resolution));
+    for (const int resolution : kResolutions)
+      add_row(scene, "hemicube:" + std::to_string(resolution));
   }
   return true;
 }();

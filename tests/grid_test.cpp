@@ -19,14 +19,17 @@ struct Exact {
 };
 
 Exact exact(const urad_point& u, const urad_point& v) {
-  const double a[3] = {double(u.x), double(u.y), double(u.z)}, b[3] = {double(v.x), double(v.y), double(v.z)};
+  const double a[3] = {double(u.x), double(u.y), double(u.z)},
+               b[3] = {double(v.x), double(v.y), double(v.z)};
   Exact result{};
   result.normal[0] = a[1] * b[2] - a[2] * b[1];
   result.normal[1] = a[2] * b[0] - a[0] * b[2];
   result.normal[2] = a[0] * b[1] - a[1] * b[0];
-  result.area = std::sqrt(result.normal[0] * result.normal[0] + result.normal[1] * result.normal[1] +
-                          result.normal[2] * result.normal[2]);
-  for (int k = 0; k < 3; ++k) result.sum += a[k] * a[k] + b[k] * b[k], result.normal[k] /= result.area;
+  result.area =
+      std::sqrt(result.normal[0] * result.normal[0] + result.normal[1] * result.normal[1] +
+                result.normal[2] * result.normal[2]);
+  for (int k = 0; k < 3; ++k)
+    result.sum += a[k] * a[k] + b[k] * b[k], result.normal[k] /= result.area;
   return result;
 }
 
@@ -52,7 +55,8 @@ TEST_CASE("grid_make keeps its error bounds on random parallelograms of every si
     area = std::max(area, std::fabs(shape.log2_area_q24 / 0x1p24 - std::log2(want.area)));
     spread = std::max(spread, std::fabs(shape.log2_spread_q24 / 0x1p24 - std::log2(want.sum / 12)));
     const double xx = (double(u.x) * u.x + double(v.x) * v.x) / want.sum;
-    fill = std::max(fill, std::fabs(shape.fill_uq15 / 32768.0 - want.area / (want.area + want.sum)));
+    fill =
+        std::max(fill, std::fabs(shape.fill_uq15 / 32768.0 - want.area / (want.area + want.sum)));
     CHECK(std::fabs(shape.spread_q15[0] / 32768.0 - xx) <= 0x1p-15);
   }
   CHECK(normal <= 0x1p-26);
@@ -79,7 +83,8 @@ TEST_CASE("a grid made on the chip passes the scene check and enumerates its pat
   REQUIRE(urad::grid_make({-300, 0, 0}, {100, 0, 0}, {0, 50, 0}, 3, 2, &grid) == urad::Status::ok);
   const urad_surface surface{0, 6, 0, URAD_SURFACE_PLANAR, &grid, nullptr};
   const urad_material material{};
-  const urad_scene scene{URAD_SCENE_ABI, 0, 6, 1, 1, 0, 0, &surface, &material, nullptr, nullptr, nullptr, 0};
+  const urad_scene scene{URAD_SCENE_ABI, 0,         6,       1,       1,       0, 0,
+                         &surface,       &material, nullptr, nullptr, nullptr, 0};
   CHECK(urad::scene_check(&scene) == urad::Status::ok);
   const urad::Patch patch = urad::patch_at(scene, 4);
   CHECK(patch.centroid.x == -150);

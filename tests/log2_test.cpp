@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdint>
 
-TEST_CASE("log2_q24 keeps its bound over a dense sweep, never falls, and is exact at powers of two") {
+TEST_CASE(
+    "log2_q24 keeps its bound over a dense sweep, never falls, and is exact at powers of two") {
   double worst = 0;
   std::uint32_t at = 0;
   std::int32_t last = -1;
-  for (std::uint64_t x = 1; x < (std::uint64_t{1} << 32); x += x < 1'000'000 ? 1 : x / 200'003 + 1) {
+  for (std::uint64_t x = 1; x < (std::uint64_t{1} << 32);
+       x += x < 1'000'000 ? 1 : x / 200'003 + 1) {
     const std::int32_t y = urad::log2_q24(std::uint32_t(x));
     const double error = std::fabs(y / 0x1p24 - std::log2(double(x)));
     if (error > worst) worst = error, at = std::uint32_t(x);
@@ -25,7 +27,8 @@ TEST_CASE("log2_q24 keeps its bound over a dense sweep, never falls, and is exac
 }
 
 TEST_CASE("log2_q24 of 64 bits agrees with that of 32 and keeps the bound") {
-  for (std::uint32_t x : {1u, 2u, 3u, 1000u, 0xFFFFFFFFu}) CHECK(urad::log2_q24(std::uint64_t{x}) == urad::log2_q24(x));
+  for (std::uint32_t x : {1u, 2u, 3u, 1000u, 0xFFFFFFFFu})
+    CHECK(urad::log2_q24(std::uint64_t{x}) == urad::log2_q24(x));
   double worst = 0;
   for (std::uint64_t x = 1; x < (std::uint64_t{1} << 63); x += x / 50'021 + 1) {
     worst = std::max(worst, std::fabs(urad::log2_q24(x) / 0x1p24 - std::log2(double(x))));
@@ -47,7 +50,8 @@ TEST_CASE("exp2_uq keeps its bound on every fraction, never falls, and is exact 
   CHECK_FALSE(falls);
   CHECK(worst <= 9.8e-7);   // the bound in log2.hpp
   CHECK(worst <= 6.95e-7);  // measured
-  for (int n = -30; n <= 31; ++n) CHECK(urad::exp2_uq(n * (1 << 24), 0) == (n < -1 ? 0u : n < 0 ? 1u : std::uint32_t{1} << n));
+  for (int n = -30; n <= 31; ++n)
+    CHECK(urad::exp2_uq(n * (1 << 24), 0) == (n < -1 ? 0u : n < 0 ? 1u : std::uint32_t{1} << n));
 }
 
 TEST_CASE("exp2_uq saturates above, vanishes below, and is total") {
@@ -69,14 +73,16 @@ TEST_CASE("rsqrt_uq keeps its bound over 62 bits") {
   double worst = 0;
   for (std::uint64_t x = 1; x < (std::uint64_t{1} << 62); x += x / 5'021 + 1) {
     const int bits = 31 + int(std::log2(double(x)) / 2);
-    worst = std::max(worst, std::fabs(urad::rsqrt_uq(x, bits) * std::sqrt(double(x)) / std::exp2(bits) - 1));
+    worst = std::max(
+        worst, std::fabs(urad::rsqrt_uq(x, bits) * std::sqrt(double(x)) / std::exp2(bits) - 1));
   }
   CHECK(worst <= 2.4e-6);
 }
 
 TEST_CASE("rounding is symmetric in sign") {
   for (int n = 1; n < 31; ++n) {
-    for (std::int64_t x : {1, 2, 3, 5, 1000, 12345, (1 << n) - 1, 1 << (n - 1), (1 << (n - 1)) + 1}) {
+    for (std::int64_t x :
+         {1, 2, 3, 5, 1000, 12345, (1 << n) - 1, 1 << (n - 1), (1 << (n - 1)) + 1}) {
       CHECK(urad::round_shift(std::int32_t(-x), n) == -urad::round_shift(std::int32_t(x), n));
       CHECK(urad::round_shift(-x, n) == -urad::round_shift(x, n));
       CHECK(urad::round_shift(x, n) == std::llround(std::ldexp(double(x), -n)));

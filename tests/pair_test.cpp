@@ -28,7 +28,8 @@ Vec3 random_unit(std::mt19937& random) {
 Polygon random_quad(std::mt19937& random, const Vec3& centre, const Vec3& normal, double size) {
   std::uniform_real_distribution<double> factor(0.3, 1);
   const Vec3 u = glm::normalize(glm::cross(normal, random_unit(random)));
-  const Vec3 a = u * size * factor(random), b = (glm::cross(normal, u) + 0.4 * u) * size * factor(random);
+  const Vec3 a = u * size * factor(random),
+             b = (glm::cross(normal, u) + 0.4 * u) * size * factor(random);
   return {{centre - a - b, centre + a - b, centre + a + b, centre - a + b}, {}};
 }
 
@@ -38,15 +39,18 @@ std::pair<Polygon, Polygon> random_pair(std::mt19937& random) {
   const Vec3 n(0, 0, 1);
   const Vec3 c(spread(random), spread(random), 1 + 0.5 * spread(random) * 0.5);
   const Vec3 m = glm::normalize(-c + 0.3 * random_unit(random));
-  return {random_quad(random, Vec3(0), n, size(random) * 0.4), random_quad(random, c, m, size(random) * 0.4)};
+  return {random_quad(random, Vec3(0), n, size(random) * 0.4),
+          random_quad(random, c, m, size(random) * 0.4)};
 }
 
 double engine_factor(const Polygon& p, const Polygon& q, urad::Kernel kernel) {
   const host::FixedScene scene = host::FixedScene::of_polygons({p, q}, {});
   urad_counters counters{};
   const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
-  const std::int32_t there = urad::exchange_log2_q24(scene.pod(), i, j, kernel, nullptr, 0, &counters);
-  const std::int32_t back = urad::exchange_log2_q24(scene.pod(), j, i, kernel, nullptr, 0, &counters);
+  const std::int32_t there =
+      urad::exchange_log2_q24(scene.pod(), i, j, kernel, nullptr, 0, &counters);
+  const std::int32_t back =
+      urad::exchange_log2_q24(scene.pod(), j, i, kernel, nullptr, 0, &counters);
   CHECK(there == back);
   return urad::form_factor_uq32(there, i.shape->log2_area_q24) / 0x1p32;
 }
@@ -65,10 +69,13 @@ TEST_CASE("centre and moment kernel agree with the double formulas") {
   double worst_centre = 0, worst_moment = 0;
   for (int n = 0; n < 3000; ++n) {
     const auto [p, q] = random_pair(random);
-    const double centre = host::centre_kernel_estimate(p, q).f, moment = host::moment_kernel_estimate(p, q).f;
+    const double centre = host::centre_kernel_estimate(p, q).f,
+                 moment = host::moment_kernel_estimate(p, q).f;
     if (centre < 1e-6 || centre > 0.9) continue;
-    worst_centre = std::max(worst_centre, std::fabs(engine_factor(p, q, urad::Kernel::centre) / centre - 1));
-    worst_moment = std::max(worst_moment, std::fabs(engine_factor(p, q, urad::Kernel::moment) / moment - 1));
+    worst_centre =
+        std::max(worst_centre, std::fabs(engine_factor(p, q, urad::Kernel::centre) / centre - 1));
+    worst_moment =
+        std::max(worst_moment, std::fabs(engine_factor(p, q, urad::Kernel::moment) / moment - 1));
   }
   CHECK(worst_centre <= 1.0e-4);  // UQ0.32 alone is 1.2e-4 at F = 1e-6
   CHECK(worst_moment <= 4.0e-4);
@@ -87,7 +94,8 @@ TEST_CASE("the exchange survives vertex order, rigid motion and scale") {
     const glm::dmat3 turn(x, y, glm::cross(x, y));
     for (double scale : {1e-12, 1e-3, 1.0, 1e12}) {
       const Vec3 shift = 3.0 * scale * random_unit(random);
-      const double g = engine_factor(moved(p, turn, shift, scale), moved(q, turn, shift, scale), urad::Kernel::moment);
+      const double g = engine_factor(moved(p, turn, shift, scale), moved(q, turn, shift, scale),
+                                     urad::Kernel::moment);
       CHECK(g == doctest::Approx(f).epsilon(2e-4));
     }
   }
@@ -102,7 +110,8 @@ TEST_CASE("a mirrored pair has the same bits") {
       std::reverse(polygon.outer.begin(), polygon.outer.end());
       return polygon;
     };
-    CHECK(engine_factor(p, q, urad::Kernel::moment) == engine_factor(mirror(p), mirror(q), urad::Kernel::moment));
+    CHECK(engine_factor(p, q, urad::Kernel::moment) ==
+          engine_factor(mirror(p), mirror(q), urad::Kernel::moment));
   }
 }
 
@@ -114,14 +123,16 @@ TEST_CASE("patches cut by the other's plane agree with the clipped double kernel
   for (int n = 0; n < 3000; ++n) {
     const Polygon p = random_quad(random, Vec3(0), Vec3(0, 0, 1), 0.5);
     const Vec3 c(1.2 + place(random), place(random), place(random));
-    const Polygon q = random_quad(random, c, glm::normalize(Vec3(-1, place(random), place(random))), 0.5);
+    const Polygon q =
+        random_quad(random, c, glm::normalize(Vec3(-1, place(random), place(random))), 0.5);
     const double exact = host::moment_kernel_estimate(p, q).f;
     if (exact < 1e-5 || exact > 0.5) continue;
     errors.push_back(std::fabs(engine_factor(p, q, urad::Kernel::moment) / exact - 1));
   }
   std::sort(errors.begin(), errors.end());
   REQUIRE(errors.size() > 500);
-  // Grazing angles multiply the Q15 rounding of the moments by s/cos; what the kernel itself leaves out is far more.
+  // Grazing angles multiply the Q15 rounding of the moments by s/cos; what the kernel itself leaves
+  // out is far more.
   CHECK(errors[errors.size() / 2] <= 5e-3);
   CHECK(errors.back() <= 0.12);
 }
@@ -142,7 +153,8 @@ TEST_CASE("a distance just below a power of two does not overflow the direction"
     urad_grid grid[2];
     const std::int32_t s = 1 << 17;
     REQUIRE(urad::grid_make({0, 0, 0}, {s, 0, 0}, {0, s, 0}, 1, 1, &grid[0]) == urad::Status::ok);
-    REQUIRE(urad::grid_make({0, 0, height}, {0, s, 0}, {s, 0, 0}, 1, 1, &grid[1]) == urad::Status::ok);
+    REQUIRE(urad::grid_make({0, 0, height}, {0, s, 0}, {s, 0, 0}, 1, 1, &grid[1]) ==
+            urad::Status::ok);
     urad::Pair pair;
     const urad_point below{s / 2, s / 2, 0}, above{s / 2, s / 2, height};
     REQUIRE(urad::pair_invariants(grid[0].shape, below, grid[1].shape, above, &pair));

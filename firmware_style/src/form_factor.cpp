@@ -1,6 +1,7 @@
 #include "urad/form_factor.hpp"
 
 #include "urad/clip.hpp"
+#include "urad/lambert.hpp"
 #include "urad/log2.hpp"
 #include "urad/network.hpp"
 
@@ -29,8 +30,8 @@ bool cut_to_front(const urad_scene& scene, const Patch& patch, const Patch& plan
 int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 
 /// log2 K plus the network's word on it, never above log2 of the smaller area: F <= 1 both ways.
-int32_t corrected_q24(const Pair& pair, Kernel kernel, const urad_net* net, uint32_t skips_off,
-                      int32_t limit_q24, urad_counters* counters) noexcept {
+int32_t corrected_q24(const PairKernel& pair, Kernel kernel, const urad_net* net,
+                      uint32_t skips_off, int32_t limit_q24, urad_counters* counters) noexcept {
   ++counters->evaluated;
   int32_t log2_g_q24 = pair.log2_kernel_q24;
   if (kernel == Kernel::moment) log2_g_q24 += pair.log2_bend_q24;
@@ -38,11 +39,35 @@ int32_t corrected_q24(const Pair& pair, Kernel kernel, const urad_net* net, uint
     const bool far = pair.rho_uq16 < net->far_rho_uq16;
     if (far) ++counters->far_pairs;
     if (!far || (skips_off & skip_off_far)) {
-      const int32_t y_q16 = network_run(*net, pair.input_q15);
-      log2_g_q24 += far ? 0 : int32_t(round_shift(int64_t{y_q16} * pair.gate_uq16, 8));
+      Pair inputs;
+      pair_inputs(pair, &inputs);
+      const int32_t y_q16 = network_run(*net, inputs.input_q15);
+      log2_g_q24 += far ? 0 : mul_round(y_q16, inputs.gate_uq16, 8);
     }
   }
   return least(log2_g_q24, limit_q24);
+}
+
+/// Where kernel and network cannot be right, and the net says so.
+bool handed_over(const PairKernel& pair, bool clipped, const urad_net* net) noexcept {
+  return net && net->near_rho_uq16 && (clipped || pair.rho_uq16 > net->near_rho_uq16);
+}
+
+/// The parts of two patches in front of each other. Shapes live as long as the kernel terms that
+/// point to them.
+struct Cuts {
+  Cut i, j;
+};
+
+bool clipped_kernel(const urad_scene& scene, const Patch& i, const Patch& j, Cuts* cuts,
+                    PairKernel* kernel, int32_t* limit_q24, bool* clipped) noexcept {
+  if (!cut_to_front(scene, i, j, &cuts->i) || !cut_to_front(scene, j, i, &cuts->j)) return false;
+  const urad_shape& shape_i = cuts->i.clipped ? cuts->i.shape : *i.shape;
+  const urad_shape& shape_j = cuts->j.clipped ? cuts->j.shape : *j.shape;
+  *clipped = cuts->i.clipped || cuts->j.clipped;
+  *limit_q24 = least(shape_i.log2_area_q24, shape_j.log2_area_q24);
+  return pair_kernel(shape_i, cuts->i.clipped ? cuts->i.centroid : i.centroid, shape_j,
+                     cuts->j.clipped ? cuts->j.centroid : j.centroid, kernel);
 }
 
 int32_t no_exchange(urad_counters* counters) noexcept {
@@ -54,34 +79,46 @@ int32_t no_exchange(urad_counters* counters) noexcept {
 
 bool clipped_pair(const urad_scene& scene, const Patch& i, const Patch& j, Pair* pair,
                   int32_t* limit_q24, bool* clipped) noexcept {
-  Cut cut_i, cut_j;
-  if (!cut_to_front(scene, i, j, &cut_i) || !cut_to_front(scene, j, i, &cut_j)) return false;
-  const urad_shape& shape_i = cut_i.clipped ? cut_i.shape : *i.shape;
-  const urad_shape& shape_j = cut_j.clipped ? cut_j.shape : *j.shape;
-  *clipped = cut_i.clipped || cut_j.clipped;
-  *limit_q24 = least(shape_i.log2_area_q24, shape_j.log2_area_q24);
-  return pair_invariants(shape_i, cut_i.clipped ? cut_i.centroid : i.centroid, shape_j,
-                         cut_j.clipped ? cut_j.centroid : j.centroid, pair);
+  Cuts cuts;
+  PairKernel kernel;
+  if (!clipped_kernel(scene, i, j, &cuts, &kernel, limit_q24, clipped)) return false;
+  pair_inputs(kernel, pair);
+  return true;
 }
 
 int32_t exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j, Kernel kernel,
                           const urad_net* net, uint32_t skips_off,
                           urad_counters* counters) noexcept {
-  Pair pair;
+  Cuts cuts;
+  PairKernel pair;
   int32_t limit_q24;
   bool clipped;
-  if (!clipped_pair(scene, i, j, &pair, &limit_q24, &clipped)) return no_exchange(counters);
+  if (!clipped_kernel(scene, i, j, &cuts, &pair, &limit_q24, &clipped))
+    return no_exchange(counters);
   if (clipped) ++counters->clipped;
+  if (handed_over(pair, clipped, net))
+    return exchange_exact_q24(scene, i, j, kHandOverPoints, counters);
   return corrected_q24(pair, kernel, net, skips_off, limit_q24, counters);
 }
 
-int32_t exchange_in_front_q24(const Patch& i, const Patch& j, Kernel kernel, const urad_net* net,
-                              uint32_t skips_off, urad_counters* counters) noexcept {
-  Pair pair;
-  if (!pair_invariants(*i.shape, i.centroid, *j.shape, j.centroid, &pair))
-    return no_exchange(counters);
+int32_t exchange_in_front_q24(const urad_scene& scene, const Patch& i, const Patch& j,
+                              Kernel kernel, const urad_net* net, uint32_t skips_off,
+                              urad_counters* counters) noexcept {
+  PairKernel pair;
+  if (!pair_kernel(*i.shape, i.centroid, *j.shape, j.centroid, &pair)) return no_exchange(counters);
+  if (handed_over(pair, false, net))
+    return exchange_exact_q24(scene, i, j, kHandOverPoints, counters);
   return corrected_q24(pair, kernel, net, skips_off,
                        least(i.shape->log2_area_q24, j.shape->log2_area_q24), counters);
+}
+
+int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch& j, int points,
+                           urad_counters* counters) noexcept {
+  const int32_t log2_g_q24 = lambert_exchange_log2_q24(scene, i, j, points);
+  if (log2_g_q24 == kNoExchange) return no_exchange(counters);
+  ++counters->evaluated;
+  ++counters->near_pairs;
+  return log2_g_q24;
 }
 
 uint32_t form_factor_uq32(int32_t log2_exchange_q24, int32_t log2_area_q24) noexcept {

@@ -28,8 +28,9 @@ urad_point normalised(const Wide& x, int* shift) noexcept {
 
 /// x / |x| in Q2.30 for a normalised x: the table's reciprocal root and one Newton step.
 urad_point unit_q30(const urad_point& x) noexcept {
-  const int64_t length2_uq28 = int64_t(uint64_t(dot(x, x)) >> 30);  // |x|^2 / 2^58, 1/4 .. 3 in UQ.28 and 2^28 = 1
-  const int64_t y_q28 = rsqrt_uq(uint64_t(length2_uq28), 42);       // 2^28 / sqrt(|x|^2 / 2^58 )
+  const int64_t length2_uq28 =
+      int64_t(uint64_t(dot(x, x)) >> 30);  // |x|^2 / 2^58, 1/4 .. 3 in UQ.28 and 2^28 = 1
+  const int64_t y_q28 = rsqrt_uq(uint64_t(length2_uq28), 42);  // 2^28 / sqrt(|x|^2 / 2^58 )
   const int64_t half_q28 = round_shift(round_shift(y_q28 * y_q28, 28) * length2_uq28, 28);
   const int64_t better_q28 = round_shift(y_q28 * ((int64_t{3} << 28) - half_q28), 29);
   const auto scaled = [=](int32_t c) { return int32_t(round_shift(c * better_q28, 27)); };
@@ -39,18 +40,21 @@ urad_point unit_q30(const urad_point& x) noexcept {
 bool inside(int64_t x) noexcept { return x >= -URAD_COORDINATE_MAX && x <= URAD_COORDINATE_MAX; }
 
 /// All four corners of the grid along one axis.
-bool reaches(int32_t origin, int32_t step_u, int32_t step_v, uint16_t count_u, uint16_t count_v) noexcept {
+bool reaches(int32_t origin, int32_t step_u, int32_t step_v, uint16_t count_u,
+             uint16_t count_v) noexcept {
   const int64_t u = int64_t{step_u} * count_u, v = int64_t{step_v} * count_v;
   return inside(origin) && inside(origin + u) && inside(origin + v) && inside(origin + u + v);
 }
 
 /// M = (u u^T + v v^T) / 12 of a parallelogram, over its trace.
-void put_spread(const urad_point& u, const urad_point& v, int32_t log2_sum_q24, int16_t* spread_q15) noexcept {
+void put_spread(const urad_point& u, const urad_point& v, int32_t log2_sum_q24,
+                int16_t* spread_q15) noexcept {
   const int32_t a[3] = {u.x, u.y, u.z}, b[3] = {v.x, v.y, v.z};
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; ++k) {
     const int64_t product = int64_t{a[row[k]]} * a[column[k]] + int64_t{b[row[k]]} * b[column[k]];
-    const uint32_t size_q15 = product == 0 ? 0 : exp2_uq(log2_q24(magnitude(product)) - log2_sum_q24, 15);
+    const uint32_t size_q15 =
+        product == 0 ? 0 : exp2_uq(log2_q24(magnitude(product)) - log2_sum_q24, 15);
     const int16_t narrow = int16_t(size_q15 > 32767u ? 32767u : size_q15);
     spread_q15[k] = product < 0 ? int16_t(-narrow) : narrow;
   }
@@ -58,8 +62,8 @@ void put_spread(const urad_point& u, const urad_point& v, int32_t log2_sum_q24, 
 
 }  // namespace
 
-Status grid_make(const urad_point& origin, const urad_point& step_u, const urad_point& step_v, uint16_t count_u,
-                 uint16_t count_v, urad_grid* grid) noexcept {
+Status grid_make(const urad_point& origin, const urad_point& step_u, const urad_point& step_v,
+                 uint16_t count_u, uint16_t count_v, urad_grid* grid) noexcept {
   if (!grid || count_u == 0 || count_v == 0) return Status::bad_argument;
   if (!reaches(origin.x, step_u.x, step_v.x, count_u, count_v) ||
       !reaches(origin.y, step_u.y, step_v.y, count_u, count_v) ||

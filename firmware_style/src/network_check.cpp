@@ -33,7 +33,7 @@ int32_t hidden_weight(const urad_net& net, int index) noexcept {
                               : static_cast<const int16_t*>(net.hidden_weight)[index];
 }
 
-bool good(const urad_rescale& scale) noexcept { return scale.shift >= 1 && scale.shift <= 47; }
+bool good(const urad_rescale& scale) noexcept { return scale.shift >= 17 && scale.shift <= 47; }
 
 /// Greatest accumulator: every |input| <= 2^15 (sigmoids reach 2^15 exactly).
 int64_t reach(const urad_net& net, int h) noexcept {
@@ -65,7 +65,7 @@ uint32_t network_crc32(const urad_net& net) noexcept {
   Crc32 crc;
   crc.half(net.abi), crc.half(net.flags);
   crc.byte(net.inputs), crc.byte(net.hidden), crc.byte(net.weight_bits), crc.byte(net.reserved);
-  crc.half(net.far_rho_uq16), crc.half(net.reserved16);
+  crc.half(net.far_rho_uq16), crc.half(net.near_rho_uq16);
   for (int k = 0; k < net.hidden * net.inputs; ++k) {
     const uint32_t weight = uint32_t(hidden_weight(net, k));
     net.weight_bits == 8 ? crc.byte(weight) : crc.half(weight);
@@ -83,8 +83,7 @@ uint32_t network_crc32(const urad_net& net) noexcept {
 
 Status network_check(const urad_net* net) noexcept {
   if (!net) return Status::bad_argument;
-  if (net->abi != URAD_NET_ABI || (net->flags & ~URAD_NET_PROVEN) || net->reserved ||
-      net->reserved16) {
+  if (net->abi != URAD_NET_ABI || (net->flags & ~URAD_NET_PROVEN) || net->reserved) {
     return Status::bad_net;
   }
   if (net->inputs < 1 || net->inputs > URAD_NET_MAX_INPUTS) return Status::bad_net;

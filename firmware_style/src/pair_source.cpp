@@ -22,6 +22,13 @@ urad_status no_light(uint32_t* f_uq32, uint16_t count) noexcept {
   return URAD_OK;
 }
 
+int32_t exchange_q24(const PairSource& source, const Patch& i, const Patch& j, Side side) noexcept {
+  const urad_scene& scene = *source.scene;
+  if (source.points) return exchange_exact_q24(scene, i, j, source.points, source.counters);
+  const auto exchange = side == Side::front ? exchange_in_front_q24 : exchange_log2_q24;
+  return exchange(scene, i, j, source.kernel, source.net, source.skips_off, source.counters);
+}
+
 int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
   return scene.log2_scale_q24 ? scene.log2_scale_q24[patch] : 0;
 }
@@ -49,11 +56,7 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
   for (uint16_t k = 0; k < count; ++k) {
     f_uq32[k] = 0;
     if (receiver.index != shooter) {
-      int32_t log2_g_q24 = side == Side::front
-                               ? exchange_in_front_q24(from, receiver, source.kernel, source.net,
-                                                       source.skips_off, source.counters)
-                               : exchange_log2_q24(scene, from, receiver, source.kernel, source.net,
-                                                   source.skips_off, source.counters);
+      int32_t log2_g_q24 = exchange_q24(source, from, receiver, side);
       if (log2_g_q24 != kNoExchange) {
         log2_g_q24 += scale_q24(scene, shooter) + scale_q24(scene, receiver.index);
         f_uq32[k] = form_factor_uq32(log2_g_q24, from.shape->log2_area_q24);

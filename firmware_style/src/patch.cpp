@@ -6,14 +6,11 @@ namespace urad {
 
 namespace {
 
-/// origin + u/2 step_u + v/2 step_v, rounded symmetrically.
-urad_point grid_point(const urad_grid& grid, int32_t twice_u, int32_t twice_v) noexcept {
-  const auto along = [=](int32_t origin, int32_t step_u, int32_t step_v) {
-    return int32_t(origin + round_shift(int64_t{step_u} * twice_u + int64_t{step_v} * twice_v, 1));
-  };
-  return {along(grid.origin.x, grid.step_u.x, grid.step_v.x),
-          along(grid.origin.y, grid.step_u.y, grid.step_v.y),
-          along(grid.origin.z, grid.step_u.z, grid.step_v.z)};
+/// origin + u step_u + v step_v. Corners lie within the scene's box, so 32 bits hold every sum.
+urad_point grid_corner(const urad_grid& grid, int32_t u, int32_t v) noexcept {
+  return {grid.origin.x + u * grid.step_u.x + v * grid.step_v.x,
+          grid.origin.y + u * grid.step_u.y + v * grid.step_v.y,
+          grid.origin.z + u * grid.step_u.z + v * grid.step_v.z};
 }
 
 /// Sixteen steps of long division: chips without a divider have no helper linked in. divisor > 0.
@@ -31,7 +28,14 @@ Quotient divide(uint16_t dividend, uint16_t divisor) noexcept {
 }
 
 void place_in_grid(Patch* patch) noexcept {
-  patch->centroid = grid_point(*patch->surface->grid, 2 * patch->u + 1, 2 * patch->v + 1);
+  const urad_grid& grid = *patch->surface->grid;
+  const urad_point corner = grid_corner(grid, patch->u, patch->v);
+  const auto middle = [](int32_t at, int32_t step_u, int32_t step_v) {
+    return at + round_shift(step_u + step_v, 1);
+  };
+  patch->centroid = {middle(corner.x, grid.step_u.x, grid.step_v.x),
+                     middle(corner.y, grid.step_u.y, grid.step_v.y),
+                     middle(corner.z, grid.step_u.z, grid.step_v.z)};
 }
 
 void place_in_list(Patch* patch) noexcept {
@@ -70,8 +74,13 @@ Patch patch_at(const urad_scene& scene, uint16_t patch) noexcept {
 void patch_advance(Patch* patch) noexcept {
   ++patch->index;
   if (!patch->surface->grid) return place_in_list(patch);
-  if (++patch->u == patch->surface->grid->count_u) patch->u = 0, ++patch->v;
-  place_in_grid(patch);
+  const urad_grid& grid = *patch->surface->grid;
+  if (++patch->u == grid.count_u) {
+    patch->u = 0, ++patch->v;
+    return place_in_grid(patch);
+  }
+  const urad_point& c = patch->centroid;
+  patch->centroid = {c.x + grid.step_u.x, c.y + grid.step_u.y, c.z + grid.step_u.z};
 }
 
 urad_point patch_vertex(const urad_scene& scene, const Patch& patch, uint16_t k) noexcept {
@@ -80,7 +89,7 @@ urad_point patch_vertex(const urad_scene& scene, const Patch& patch, uint16_t k)
         .vertex[patch.surface->polygon[patch.index - patch.surface->first_patch].first_vertex + k];
   }
   const int32_t u = patch.u + (k == 1 || k == 2), v = patch.v + (k >= 2);
-  return grid_point(*patch.surface->grid, 2 * u, 2 * v);
+  return grid_corner(*patch.surface->grid, u, v);
 }
 
 }  // namespace urad

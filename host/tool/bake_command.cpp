@@ -1,4 +1,5 @@
-// urad bake: everything a renderer and a person want of one scene: pictures, vertex colours, C arrays, report.
+// urad bake: everything a renderer and a person want of one scene: pictures, vertex colours, C
+// arrays, report.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -43,7 +44,8 @@ std::string file_of(std::string method) {
 host::MethodResult exact_result(host::SceneSolver& solver) {
   host::MethodResult result;
   result.name = "exact";
-  result.title = solver.scene().convex ? "Exact factors, dense solve" : "Exact factors, traced visibility, dense solve";
+  result.title = solver.scene().convex ? "Exact factors, dense solve"
+                                       : "Exact factors, traced visibility, dense solve";
   result.reference = true;
   result.B = solver.exact().radiosity;
   result.seconds = solver.exact().seconds;
@@ -67,12 +69,18 @@ host::MethodResult method_result(const std::string& name, const host::MethodRun&
   host::MethodResult result;
   result.name = name;
   result.B = solution.radiosity;
-  result.errors = {run.rms, run.max, run.factors.std, run.factors.max, run.factors.row_mean, run.factors.row_worst};
+  result.errors = {run.rms,
+                   run.max,
+                   run.factors.std,
+                   run.factors.max,
+                   run.factors.row_mean,
+                   run.factors.row_worst};
   result.shots = std::uint32_t(solution.shots);
   result.seconds = run.rows.seconds + solution.seconds;
   result.ns_per_pair = run.rows.seconds / pairs * 1e9;
   result.ram_bytes = std::int64_t(solution.ram_bytes + run.rows.ram_bytes);
-  result.memory = {{"solver: unshot and shot power, one run of factors", host::bytes_text(std::int64_t(solution.ram_bytes))},
+  result.memory = {{"solver: unshot and shot power, one run of factors",
+                    host::bytes_text(std::int64_t(solution.ram_bytes))},
                    {"source of factors", host::bytes_text(std::int64_t(run.rows.ram_bytes))}};
   result.counters = run.rows.counters;
   result.solver = solution.counters;
@@ -86,7 +94,8 @@ std::vector<host::Fact> facts(const host::Scene& scene, const host::SceneSolver&
           {"Polygons that can stand between patches", std::to_string(scene.blockers.size())},
           {"Convex", scene.convex ? "yes: no visibility is computed" : "no"},
           {"Closed", scene.closed ? "yes: rows are repaired to sum to 1" : "no: light escapes"},
-          {"Scene units per unit of the file", fmt::format("{:.6g}", solver.fixed().units_per_length())},
+          {"Scene units per unit of the file",
+           fmt::format("{:.6g}", solver.fixed().units_per_length())},
           {"Exitance per integer", fmt::format("{:.6g}", solver.fixed().exitance_unit())}};
 }
 
@@ -97,8 +106,8 @@ std::vector<host::Fact> network_facts(const host::NetFile* file) {
   return result;
 }
 
-void write_method(const fs::path& folder, const host::Scene& scene, const host::MethodResult& method,
-                  const host::CornerMesh& mesh, double white) {
+void write_method(const fs::path& folder, const host::Scene& scene,
+                  const host::MethodResult& method, const host::CornerMesh& mesh, double white) {
   const std::string stem = (folder / file_of(method.name)).string();
   host::write_file_atomically(stem + ".png", method.pictures.smooth);
   if (!method.pictures.difference.empty()) {
@@ -112,11 +121,14 @@ void run(const Options& options, const Common& common) {
   const host::Scene scene = options.scene.load();
   host::SceneSolver solver(scene, common.threads, common.quiet);
   std::unique_ptr<host::InstructionCounts> counts;
-  if (!options.instructions.empty()) counts = std::make_unique<host::InstructionCounts>(options.instructions);
+  if (!options.instructions.empty())
+    counts = std::make_unique<host::InstructionCounts>(options.instructions);
   const fs::path folder(options.folder);
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (failure) throw host::Error(fmt::format("{}: cannot make this folder: {}", options.folder, failure.message()));
+  if (failure)
+    throw host::Error(
+        fmt::format("{}: cannot make this folder: {}", options.folder, failure.message()));
 
   host::BakeReport report;
   report.title = scene.name;
@@ -139,19 +151,23 @@ void run(const Options& options, const Common& common) {
     }
     const host::MethodRun run = solver.run(spec, nets.choice(), goal);
     if (run.solution.status != URAD_OK) {
-      throw host::Error(fmt::format("{} by {}: the solve stopped with status {}; a lower reflectance or another method "
-                                    "would do",
-                                    options.scene.name, spec.text(), int(run.solution.status)));
+      throw host::Error(fmt::format(
+          "{} by {}: the solve stopped with status {}; a lower reflectance or another method "
+          "would do",
+          options.scene.name, spec.text(), int(run.solution.status)));
     }
     host::MethodResult result = method_result(spec.text(), run);
     if (counts) {
       result.m0_instructions_per_pair = counts->per_pair(spec.text());
-      if (const auto shot = counts->per_shot(spec.text())) result.m0_instructions = *shot * *result.shots;
+      if (const auto shot = counts->per_shot(spec.text()))
+        result.m0_instructions = *shot * *result.shots;
     }
-    if (light.empty()) light = host::light_to_c(solver.fixed(), run.solution.raw, name, report.command);
+    if (light.empty())
+      light = host::light_to_c(solver.fixed(), run.solution.raw, name, report.command);
     // The scene goes out with the repair that belongs to the network's or kernel's factors.
     if (!fs::exists(folder / "scene.h") || spec.name == "net") {
-      host::write_file_atomically((folder / "scene.h").string(), host::scene_to_c(solver.fixed(), name, report.command));
+      host::write_file_atomically((folder / "scene.h").string(),
+                                  host::scene_to_c(solver.fixed(), name, report.command));
     }
     report.methods.push_back(std::move(result));
   }
@@ -164,7 +180,8 @@ void run(const Options& options, const Common& common) {
   const double white = host::white_level(scene, solver.exact().radiosity);
   for (const host::MethodResult& method : report.methods) {
     write_method(folder, scene, method, mesh, white);
-    report.files.push_back({file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
+    report.files.push_back(
+        {file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
   }
   if (!light.empty()) {
     host::write_file_atomically((folder / "light.h").string(), light);
@@ -178,15 +195,19 @@ void run(const Options& options, const Common& common) {
 
 void add_bake(CLI::App& app, const Common& common) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("bake", "Pictures, vertex colours, C arrays and a report of a solved scene");
+  CLI::App* command = app.add_subcommand(
+      "bake", "Pictures, vertex colours, C arrays and a report of a solved scene");
   options->scene.add_to(command);
-  command->add_option("--method", options->methods, "M[,M...], as for solve")->capture_default_str();
+  command->add_option("--method", options->methods, "M[,M...], as for solve")
+      ->capture_default_str();
   command->add_option("--net", options->net, "JSON of the network for net and hybrid");
   command->add_option("--error", options->error, "Stop each solve at this relative rms error of B")
       ->check(CLI::Range(1e-7, 1.0))
       ->capture_default_str();
-  command->add_option("--size", options->size, "Width and height of the pictures")->check(CLI::Range(16, 4096));
-  command->add_option("--instructions", options->instructions, "Counted Cortex-M0 instructions (bench/icount)");
+  command->add_option("--size", options->size, "Width and height of the pictures")
+      ->check(CLI::Range(16, 4096));
+  command->add_option("--instructions", options->instructions,
+                      "Counted Cortex-M0 instructions (bench/icount)");
   command->add_option("-o,--out", options->folder, "Folder to write into")->required();
   command->callback([options, &common] { run(*options, common); });
 }

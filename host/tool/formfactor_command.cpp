@@ -21,11 +21,13 @@ void run(const Options& options, const Common& common) {
   const std::vector<host::MethodSpec> methods = host::parse_methods(options.methods);
   std::string table;
   if (!options.in.empty()) {
-    table = host::pairs_table(host::read_csv(options.in), methods, nets.choice(), common.threads, common.quiet);
+    table = host::pairs_table(host::read_csv(options.in), methods, nets.choice(), common.threads,
+                              common.quiet);
   } else {
-    if (methods.size() != 1) throw CLI::ValidationError("--method", "one method at a time with --scene");
-    table = host::scenes_table(host::read_csv(options.scene), methods[0], nets.choice(), options.subdivide, common.threads,
-                               common.quiet);
+    if (methods.size() != 1)
+      throw CLI::ValidationError("--method", "one method at a time with --scene");
+    table = host::scenes_table(host::read_csv(options.scene), methods[0], nets.choice(),
+                               options.subdivide, common.threads, common.quiet);
   }
   host::write_file_atomically(options.out, table);
 }
@@ -34,14 +36,18 @@ void run(const Options& options, const Common& common) {
 
 void add_formfactor(CLI::App& app, const Common& common) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("formfactor", "Form factors of polygon pairs, with or without blockers");
-  command->add_option("--method", options->methods,
-                      "M[,M...]: reference, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, moment, fixed-kernel, "
-                      "fixed-moment, net[:NAME], hemicube:R; with --scene also hybrid[:R], rays:N")
+  CLI::App* command =
+      app.add_subcommand("formfactor", "Form factors of polygon pairs, with or without blockers");
+  command
+      ->add_option("--method", options->methods,
+                   "M[,M...]: reference, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, moment, "
+                   "fixed-kernel, "
+                   "fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with --scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
   sources->add_option("--in", options->in, "CSV with columns id, p, q (\"-\": standard input)");
-  sources->add_option("--scene", options->scene, "CSV with columns scene, role (P, Q or B), polygon");
+  sources->add_option("--scene", options->scene,
+                      "CSV with columns scene, role (P, Q or B), polygon");
   sources->require_option(1);
   command->add_option("--net", options->net, "JSON of the network for method net");
   command->add_option("--subdivide", options->subdivide, "Cut P into about N x N pieces (--scene)")

@@ -16,21 +16,24 @@ void add_help(CLI::App& app, std::string* topic) {
   CLI::App* help = app.add_subcommand("help", "Explain urad or one of its commands");
   help->add_option("command", *topic, "The command to explain");
   help->callback([&app, topic] {
-    std::fputs(topic->empty() ? app.help().c_str() : app.get_subcommand(*topic)->help().c_str(), stdout);
+    std::fputs(topic->empty() ? app.help().c_str() : app.get_subcommand(*topic)->help().c_str(),
+               stdout);
   });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("urad: radiosity form factors and light for machines without FPU, heap or much memory");
+  CLI::App app(
+      "urad: radiosity form factors and light for machines without FPU, heap or much memory");
   app.name("urad");
   app.set_version_flag("--version", URAD_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
   tool::Common common;
   app.add_flag("-q,--quiet", common.quiet, "No remarks, no progress");
-  app.add_option("--threads", common.threads, "Threads of long work; 0: all cores")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", common.threads, "Threads of long work; 0: all cores")
+      ->check(CLI::Range(0, 1024));
   std::string topic;
   add_help(app, &topic);
   tool::add_formfactor(app, common);
@@ -50,11 +53,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::OptionNotFound&) {
     fmt::print(stderr, "urad: help: there is no command \"{}\"\nTry: urad help\n", topic);
     return kWrongUsage;
+  } catch (const host::UsageError& wrong) {
+    fmt::print(stderr, "urad: {}\nTry: urad help\n", wrong.what());
+    return kWrongUsage;
   } catch (const host::Error& error) {
     fmt::print(stderr, "urad: {}\n", error.what());
     return kFailed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "urad: out of memory: a smaller scene (--subdivide, --patch-size) or fewer threads would do\n");
+    fmt::print(stderr,
+               "urad: out of memory: a smaller scene (--subdivide, --patch-size) or fewer threads "
+               "would do\n");
     return kFailed;
   }
   return 0;

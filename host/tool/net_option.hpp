@@ -8,7 +8,8 @@
 
 namespace tool {
 
-/// The shipped networks and, when `path` is not empty, the 16-bit network of that file. Throws host::Error.
+/// The shipped networks and, when `path` is not empty, the 16-bit network of that file. Throws
+/// host::Error.
 class Nets {
  public:
   explicit Nets(const std::string& path) : choice_{shipped_net} {

@@ -12,10 +12,13 @@ struct SceneOption {
   host::MeshOptions mesh;
 
   void add_to(CLI::App* command) {
-    command->add_option("SCENE,--scene", name, "An OBJ with its MTL, a patch CSV, or a built-in name: cube7, cornell")
+    command
+        ->add_option("SCENE,--scene", name,
+                     "An OBJ with its MTL, a patch CSV, or a built-in name: cube7, cornell")
         ->required();
-    auto* subdivide = command->add_option("--subdivide", mesh.subdivide, "Cut every quad into N x N patches")
-                          ->check(CLI::Range(1, 256));
+    auto* subdivide =
+        command->add_option("--subdivide", mesh.subdivide, "Cut every quad into N x N patches")
+            ->check(CLI::Range(1, 256));
     command->add_option("--patch-size", mesh.patch_size, "Longest patch edge, in the file's unit")
         ->check(CLI::PositiveNumber)
         ->excludes(subdivide);

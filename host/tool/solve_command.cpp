@@ -27,19 +27,22 @@ std::string radiosity_table(const host::Scene& scene, const std::vector<host::Ve
   std::string text = host::csv_line({"patch", "B_r", "B_g", "B_b"});
   for (std::size_t row = 0; row < radiosity.size(); ++row) {
     const host::Vec3& b = radiosity[scene.patch_of_row(row)];
-    text += host::csv_line({scene.label_of_row(row), host::csv_number(b.x), host::csv_number(b.y), host::csv_number(b.z)});
+    text += host::csv_line({scene.label_of_row(row), host::csv_number(b.x), host::csv_number(b.y),
+                            host::csv_number(b.z)});
   }
   return text;
 }
 
-std::string rows_table(const host::Scene& scene, const std::function<double(std::size_t, std::size_t)>& f) {
+std::string rows_table(const host::Scene& scene,
+                       const std::function<double(std::size_t, std::size_t)>& f) {
   std::vector<std::string> cells{"patch"};
   const std::size_t n = scene.patches.size();
   for (std::size_t j = 0; j < n; ++j) cells.push_back(fmt::format("F{}", j));
   std::string text = host::csv_line(cells);
   for (std::size_t i = 0; i < n; ++i) {
     cells = {scene.label_of_row(i)};
-    for (std::size_t j = 0; j < n; ++j) cells.push_back(host::csv_number(f(scene.patch_of_row(i), scene.patch_of_row(j))));
+    for (std::size_t j = 0; j < n; ++j)
+      cells.push_back(host::csv_number(f(scene.patch_of_row(i), scene.patch_of_row(j))));
     text += host::csv_line(cells);
   }
   return text;
@@ -47,10 +50,13 @@ std::string rows_table(const host::Scene& scene, const std::function<double(std:
 
 void refuse(const std::string& scene, urad_status status) {
   if (status == URAD_OK) return;
-  const char* why = status == URAD_DIVERGES ? "the solve does not converge: row sums times reflectance reach 1; a lower "
-                                              "reflectance or a method with better row sums would do"
-                    : status == URAD_OVERFLOW ? "a power left its 32 bits: a lower reflectance or a dimmer lamp would do"
-                                              : "the engine refused the scene";
+  const char* why =
+      status == URAD_DIVERGES
+          ? "the solve does not converge: row sums times reflectance reach 1; a lower "
+            "reflectance or a method with better row sums would do"
+      : status == URAD_OVERFLOW
+          ? "a power left its 32 bits: a lower reflectance or a dimmer lamp would do"
+          : "the engine refused the scene";
   throw host::Error(fmt::format("{}: {}", scene, why));
 }
 
@@ -62,11 +68,13 @@ void run(const Options& options, const Common& common) {
   if (spec.name == "exact") {
     const host::ExactSolution& exact = solver.exact();
     if (!options.rows.empty()) {
-      host::write_file_atomically(options.rows, rows_table(scene, [&](std::size_t i, std::size_t j) {
+      host::write_file_atomically(options.rows,
+                                  rows_table(scene, [&](std::size_t i, std::size_t j) {
                                     return exact.form_factors(Eigen::Index(i), Eigen::Index(j));
                                   }));
     }
-    if (!options.report.empty()) host::write_file_atomically(options.report, host::exact_json(scene, exact));
+    if (!options.report.empty())
+      host::write_file_atomically(options.report, host::exact_json(scene, exact));
     host::write_file_atomically(options.out, radiosity_table(scene, exact.radiosity));
     return;
   }
@@ -76,14 +84,19 @@ void run(const Options& options, const Common& common) {
   const host::MethodRun result = solver.run(spec, nets.choice(), goal);
   refuse(options.scene.name, result.solution.status);
   if (!options.rows.empty()) {
-    host::write_file_atomically(options.rows,
-                                rows_table(scene, [&](std::size_t i, std::size_t j) { return result.rows(i, j); }));
+    host::write_file_atomically(options.rows, rows_table(scene, [&](std::size_t i, std::size_t j) {
+                                  return result.rows(i, j);
+                                }));
   }
-  if (!options.report.empty()) host::write_file_atomically(options.report, host::solve_json(scene, spec.text(), result));
+  if (!options.report.empty())
+    host::write_file_atomically(options.report, host::solve_json(scene, spec.text(), result));
   host::write_file_atomically(options.out, radiosity_table(scene, result.solution.radiosity));
   if (!common.quiet) {
-    fmt::print(stderr, "{} by {}: {} shots, B within {:.3g} % rms of the converged and {:.3g} % of the exact solution\n",
-               options.scene.name, spec.text(), result.solution.shots, 100 * result.solution.error, 100 * result.rms);
+    fmt::print(stderr,
+               "{} by {}: {} shots, B within {:.3g} % rms of the converged and {:.3g} % of the "
+               "exact solution\n",
+               options.scene.name, spec.text(), result.solution.shots, 100 * result.solution.error,
+               100 * result.rms);
   }
 }
 
@@ -93,16 +106,22 @@ void add_solve(CLI::App& app, const Common& common) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("solve", "Light in a scene: radiosity per patch");
   options->scene.add_to(command);
-  command->add_option("--method", options->method,
-                      "exact, net[:NAME], fixed-kernel, fixed-moment, hemicube:R, hybrid[:R], or a pair method in double")
+  command
+      ->add_option("--method", options->method,
+                   "exact, net[:NAME], fixed-kernel, fixed-moment, hemicube:R, hybrid[:R], or a "
+                   "pair method in double")
       ->required();
   command->add_option("--net", options->net, "JSON of the network for net and hybrid");
-  auto* shots = command->add_option("--shots", options->shots, "Stop after N shots")->check(CLI::PositiveNumber);
-  command->add_option("--error", options->error,
-                      "Stop at this relative rms error of B against the converged solution of the same factors; 0.01 = 1 %")
+  auto* shots = command->add_option("--shots", options->shots, "Stop after N shots")
+                    ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--error", options->error,
+                   "Stop at this relative rms error of B against the converged solution of the "
+                   "same factors; 0.01 = 1 %")
       ->check(CLI::Range(1e-7, 1.0))
       ->excludes(shots);
-  command->add_option("--out", options->out, "CSV of the solution (\"-\": standard output)")->required();
+  command->add_option("--out", options->out, "CSV of the solution (\"-\": standard output)")
+      ->required();
   command->add_option("--rows", options->rows, "CSV of all form factors, before repair");
   command->add_option("--report", options->report, "JSON: shots, errors, counters, ledger, memory");
   command->callback([options, &common] { run(*options, common); });

@@ -28,16 +28,21 @@ bool clipped_pair(const urad_scene& scene, const Patch& i, const Patch& j, Pair*
                   int32_t* limit_q24, bool* clipped) noexcept;
 
 /// log2 G of two patches of the scene (Q7.24, square scene units), or kNoExchange. net null: the
-/// kernel alone; else the net's correction of it. Repair is not applied. Counts the pair as
-/// evaluated or skipped_facing.
+/// kernel alone; else the net's correction of it, or the exact sum (lambert.hpp) where the net
+/// hands over. Repair is not applied. Counts the pair as evaluated or skipped_facing.
 int32_t exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j, Kernel kernel,
                           const urad_net* net, uint32_t skips_off,
                           urad_counters* counters) noexcept;
 
 /// The same for two patches known to lie wholly in front of each other's plane: the looks at every
 /// vertex are saved.
-int32_t exchange_in_front_q24(const Patch& i, const Patch& j, Kernel kernel, const urad_net* net,
-                              uint32_t skips_off, urad_counters* counters) noexcept;
+int32_t exchange_in_front_q24(const urad_scene& scene, const Patch& i, const Patch& j,
+                              Kernel kernel, const urad_net* net, uint32_t skips_off,
+                              urad_counters* counters) noexcept;
+
+/// log2 G by the exact sum at points x points of one of the two. Counted like the others.
+int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch& j, int points,
+                           urad_counters* counters) noexcept;
 
 /// F = G / A as UQ0.32, rounded, saturating at 2^32 - 1.
 uint32_t form_factor_uq32(int32_t log2_exchange_q24, int32_t log2_area_q24) noexcept;
@@ -51,6 +56,7 @@ struct PairSource {
   uint16_t rays;            ///< visibility rays per pair; 0: ignore blockers
   uint32_t skips_off;       ///< SkipOff bits
   urad_counters* counters;  ///< never null
+  uint8_t points = 0;  ///< 1 .. 4: every pair by the exact sum at so many points squared; 0: none
 };
 
 /// urad_fill for a PairSource: bad_argument on a bad index, else ok.

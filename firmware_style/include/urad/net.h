@@ -12,7 +12,7 @@
 #define URAD_NET_MAX_INPUTS 32
 #define URAD_NET_MAX_HIDDEN 64
 
-/* value = round(accumulator * multiplier / 2^shift), ties away from zero; 1 <= shift <= 47. */
+/* value = round(accumulator * multiplier / 2^shift), ties away from zero; 17 <= shift <= 47. */
 typedef struct urad_rescale {
   uint16_t multiplier;
   uint16_t shift;
@@ -30,7 +30,7 @@ typedef struct urad_net {
   uint8_t weight_bits;  /* 8: hidden_weight is int8_t, 16: int16_t */
   uint8_t reserved;     /* 0 */
   uint16_t far_rho_uq16;/* a pair with rho below this takes the kernel alone (g^2 counts as 0) */
-  uint16_t reserved16;  /* 0 */
+  uint16_t near_rho_uq16; /* a pair with rho above this, or clipped, takes the exact sum instead; 0: never */
   const void *hidden_weight;           /* [hidden][inputs], row by row */
   const int32_t *hidden_bias;          /* [hidden], in units of weight times Q0.15 input */
   const urad_rescale *hidden_rescale;  /* [hidden], accumulator -> z in Q4.11 */

@@ -29,10 +29,36 @@ struct Pair {
   int16_t input_q15[kPairInputs];
 };
 
-/// Invariants of two patches of which every part lies in front of the other's plane (cut before, if
-/// need be). False, with *pair untouched, when a centroid lies on or behind the other's plane.
+/// One patch seen from the other; m is the other's normal.
+struct PairSide {
+  const urad_shape* shape;
+  int32_t log2_cosine_q24;        ///< of this patch: log2 of p or q
+  int32_t log2_slope_q24;         ///< log2 of s / |m.w|
+  int32_t log2_cosine_other_q24;  ///< log2 |m.w|
+  uint32_t size_uq22;             ///< s, 8 at most
+  int32_t along_q22;              ///< a s
+  int32_t across_q22;             ///< c s / (m.w)
+};
+
+/// What the kernels need, and what the network's inputs are made from if they are wanted.
+struct PairKernel {
+  int32_t log2_kernel_q24, log2_bend_q24;
+  uint32_t rho_uq16, rho_uq22;
+  PairSide side[2];
+};
+
+/// Kernel terms of two patches of which every part lies in front of the other's plane (cut before,
+/// if need be). False, with *kernel undefined, when a centroid lies on or behind the other's plane.
 ///   Error   log2 K0: 2.3e-6 each for p and q, 2 x 2.3e-6 for R^2; bend: 1e-5 of s (12 a, 4 c, each
-///   Q15 in the bracket) Cost    9 64-bit products, 66 of 32 bits, 6 log2, 13 exp2; no division
+///   Q15 in the bracket) Cost    9 wide products (3 fewer for each normal along an axis), 52 of 32
+///   bits, 4 log2, 6 exp2; no division
+bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_shape& j,
+                 const urad_point& centroid_j, PairKernel* kernel) noexcept;
+
+/// The network's inputs and gate of the same pair. Cost: 60 products of 32 bits, 3 log2, 7 exp2.
+void pair_inputs(const PairKernel& kernel, Pair* pair) noexcept;
+
+/// Both, for training and for tests.
 bool pair_invariants(const urad_shape& i, const urad_point& centroid_i, const urad_shape& j,
                      const urad_point& centroid_j, Pair* pair) noexcept;
 

@@ -1,8 +1,8 @@
-// q.hpp -- fixed-point arithmetic: rounding, wide products, log2, exp2, reciprocals, square roots.
+// q.hpp -- fixed-point arithmetic: rounding and products that fit in 32 bits.
 //
 // Formats are in the names: x_q15 is signed with 15 fraction bits, x_uq32 unsigned with 32. Every
-// function is constexpr, total (no input is undefined), and uses integers only. Rounding is to
-// nearest with ties away from zero, so that f(-x) = -f(x): a mirrored scene gives mirrored bits.
+// function is constexpr and uses integers only. Rounding is to nearest with ties away from zero, so
+// that f(-x) = -f(x): a mirrored scene gives mirrored bits.
 #pragma once
 #include <stddef.h>
 #include <stdint.h>
@@ -14,26 +14,8 @@ namespace urad {
 constexpr int32_t shift_down(int32_t x, int n) noexcept { return x >> n; }
 constexpr int64_t shift_down(int64_t x, int n) noexcept { return x >> n; }
 
-/// x / 2^n to nearest, ties away from zero. 1 <= n <= 30 (62 for 64 bits), |x| <= 2^31 - 2^(n-1)
-/// (2^63 - ..).
-constexpr int32_t round_shift(int32_t x, int n) noexcept {
-  const int32_t half = int32_t{1} << (n - 1);
-  return x < 0 ? -shift_down(-x + half, n) : shift_down(x + half, n);
-}
-constexpr int64_t round_shift(int64_t x, int n) noexcept {
-  const int64_t half = int64_t{1} << (n - 1);
-  return x < 0 ? -shift_down(-x + half, n) : shift_down(x + half, n);
-}
-
 /// Position of the highest set bit, 0 .. 31 (63); 0 for x = 0.
-constexpr int top_bit(uint32_t x) noexcept {
-  int n = 0;
-  if (x >> 16) n += 16, x >>= 16;
-  if (x >> 8) n += 8, x >>= 8;
-  if (x >> 4) n += 4, x >>= 4;
-  if (x >> 2) n += 2, x >>= 2;
-  return n + int(x >> 1);
-}
+constexpr int top_bit(uint32_t x) noexcept { return 31 - __builtin_clz(x | 1u); }
 constexpr int top_bit(uint64_t x) noexcept {
   return x >> 32 ? 32 + top_bit(uint32_t(x >> 32)) : top_bit(uint32_t(x));
 }
@@ -41,5 +23,31 @@ constexpr int top_bit(uint64_t x) noexcept {
 /// |x| as unsigned; no overflow at the most negative value.
 constexpr uint32_t magnitude(int32_t x) noexcept { return x < 0 ? 0u - uint32_t(x) : uint32_t(x); }
 constexpr uint64_t magnitude(int64_t x) noexcept { return x < 0 ? 0u - uint64_t(x) : uint64_t(x); }
+
+/// x / 2^n to nearest. 1 <= n <= 31 (63 for 64 bits), any x.
+constexpr int32_t round_shift(int32_t x, int n) noexcept {
+  const uint32_t y = (magnitude(x) + (uint32_t{1} << (n - 1))) >> n;
+  return x < 0 ? -int32_t(y) : int32_t(y);
+}
+constexpr int64_t round_shift(int64_t x, int n) noexcept {
+  const uint64_t y = (magnitude(x) + (uint64_t{1} << (n - 1))) >> n;
+  return x < 0 ? -int64_t(y) : int64_t(y);
+}
+
+/// x y / 2^n to nearest for 1 <= n <= 16, |y| < 2^(32-n) and results below 2^31: two 32-bit
+/// products, where 64 bits would call a helper on small chips.
+constexpr int32_t mul_round(int32_t x, int32_t y, int n) noexcept {
+  const uint32_t a = magnitude(x), b = magnitude(y), low = (uint32_t{1} << n) - 1;
+  const uint32_t product = (a >> n) * b + (((a & low) * b + (uint32_t{1} << (n - 1))) >> n);
+  return (x < 0) != (y < 0) ? -int32_t(product) : int32_t(product);
+}
+
+/// The same for 17 <= n <= 47 and 0 <= y <= 2^16.
+constexpr int32_t mul_shift(int32_t x, uint32_t y, int n) noexcept {
+  const uint32_t a = magnitude(x);
+  const uint32_t high = (a >> 16) * y + (((a & 0xFFFFu) * y) >> 16);  // x y / 2^16, at most 2^31
+  const uint32_t product = (high + (uint32_t{1} << (n - 17))) >> (n - 16);
+  return x < 0 ? -int32_t(product) : int32_t(product);
+}
 
 }  // namespace urad

@@ -13,6 +13,7 @@ typedef struct urad_counters {
   uint32_t skipped_facing;      /* one of the two is wholly behind the other's plane */
   uint32_t clipped;             /* evaluated after a cut to the other's front half-space */
   uint32_t far_pairs;           /* evaluated by the kernel alone, network not run */
+  uint32_t near_pairs;          /* evaluated by the exact point-to-polygon sum */
   uint32_t blocked;             /* evaluated, no ray got through */
   uint32_t rays;                /* visibility rays asked for */
   uint32_t ray_tests;           /* ray against polygon */

@@ -133,11 +133,12 @@ std::string hostile_table(const AccuracyResults& results) {
 }
 
 std::string occluded_table(const AccuracyResults& results) {
-  std::string text = head({"case", "F", "hybrid:64, 4 x 4 pieces", "rays:256"}, 1);
+  std::string text =
+      head({"case", "F", "hybrid:64, 4 x 4 pieces", "rays:256", "rays:256, 4 x 4 pieces"}, 1);
   for (const auto* checks : {&results.squares, &results.l_room})
     for (const OccludedCheck& c : *checks)
       text += line({c.name, fmt::format("{:.7f}", c.f), fmt::format("{:.5f}", c.hybrid),
-                    fmt::format("{:.5f}", c.rays)});
+                    fmt::format("{:.5f}", c.rays), fmt::format("{:.5f}", c.rays_cut)});
   return text;
 }
 

@@ -41,9 +41,10 @@ std::vector<OccludedCheck> check_occluded(const std::vector<KnownValue>& values,
   const CsvTable rows = scenes(values);
   const std::vector<double> hybrid = factors(rows, {"hybrid", "64"}, 4, threads);
   const std::vector<double> rays = factors(rows, {"rays", "256"}, 1, threads);
+  const std::vector<double> cut = factors(rows, {"rays", "256"}, 4, threads);
   std::vector<OccludedCheck> checks;
   for (std::size_t k = 0; k < values.size(); ++k)
-    checks.push_back({values[k].name, values[k].f, hybrid[k], rays[k]});
+    checks.push_back({values[k].name, values[k].f, hybrid[k], rays[k], cut[k]});
   return checks;
 }
 

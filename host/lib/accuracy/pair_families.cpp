@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/planar.hpp"
@@ -39,10 +40,14 @@ PolygonPair rotated(const PolygonPair& pair, Random& random) {
   return mapped(pair, [&](const Vec3& x) { return turn * x + shift; });
 }
 
-bool in_front(const Polygon& polygon, const Moments& plane) {
-  return std::all_of(polygon.outer.begin(), polygon.outer.end(), [&](const Vec3& x) {
-    return glm::dot(plane.normal, x - plane.centroid) >= kMargin;
-  });
+/// 1 in front of the plane, -1 behind it, both by the margin; else 0.
+int side_of(const Polygon& polygon, const Moments& plane) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& x : polygon.outer) {
+    const double height = glm::dot(plane.normal, x - plane.centroid);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  return low >= kMargin ? 1 : high <= -kMargin ? -1 : 0;
 }
 
 PolygonPair free_hinge(Random& random, double degrees) {
@@ -131,7 +136,13 @@ bool is_concave(const Polygon& quad) {
 PolygonPair random_facing_quads(Random& random) {
   for (;;) {
     PolygonPair pair{random_quad(random), random_quad(random)};
-    if (in_front(pair.q, moments(pair.p)) && in_front(pair.p, moments(pair.q))) return pair;
+    const int q_side = side_of(pair.q, moments(pair.p)), p_side = side_of(pair.p, moments(pair.q));
+    if (p_side == 0 || q_side == 0) continue;
+    // Both sides of a random quad are equally likely: turning it over draws no other pairs, only
+    // faster.
+    if (q_side < 0) pair.p = flipped(pair.p);
+    if (p_side < 0) pair.q = flipped(pair.q);
+    return pair;
   }
 }
 

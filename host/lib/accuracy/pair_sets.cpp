@@ -15,7 +15,7 @@ namespace host {
 namespace {
 
 constexpr int kLowest = -6, kDecades = 6;
-constexpr std::size_t kBatch = 4096;
+constexpr std::size_t kBatch = 1024;
 constexpr double kKernelWithin =
     30;  // farther off than that the kernel is not, for pairs that matter here
 
@@ -91,7 +91,7 @@ PairSet room_pairs(std::uint64_t seed, std::size_t count, int threads) {
     draws[k].exact = reference_form_factor(draws[k].pair.p, draws[k].pair.q);
   });
   PairSet set;
-  set.name = "room pairs";
+  set.name = "two walls of a room";
   for (const Draw& one : draws) {
     if (!(one.exact > 0)) continue;
     set.pairs.push_back(one.pair);

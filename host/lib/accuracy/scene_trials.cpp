@@ -9,12 +9,14 @@
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/radiosity.hpp"
+#include "urad/urad.h"
 
 namespace host {
 
 namespace {
 
 constexpr int kShotsPerPatch = 64;  // far beyond what reflectances below 0.99 need
+constexpr double kPercent = 0.01;
 constexpr std::uint64_t kWholeRow = std::uint64_t(1) << 32;
 
 double std_of(const NetFile& net, const char* part) {
@@ -95,18 +97,27 @@ ChipSolve solve_like_a_chip(SceneSolver& solver, const QuantisedNet& net) {
   urad::Radiosity state;
   urad::Status status = urad::radiosity_init(&state, &fixed.pod(), source.source(), URAD_OVERSHOOT,
                                              run, memory.data(), bytes);
-  while (status == urad::Status::ok && !urad::radiosity_done(state, URAD_PERCENT))
-    status = urad::radiosity_step(&state);
-  if (status != urad::Status::ok)
-    throw Error(scene.name + ": the engine could not solve it by network");
-
-  std::vector<Vec3> light(scene.patches.size());
-  for (std::size_t k = 0; k < light.size(); ++k)
-    for (int c = 0; c < 3; ++c)
-      light[k][c] = urad::radiosity_get(state, std::uint16_t(k), c) * fixed.exitance_unit();
+  const auto light_error = [&] {
+    std::vector<Vec3> light(scene.patches.size());
+    for (std::size_t k = 0; k < light.size(); ++k)
+      for (int c = 0; c < 3; ++c)
+        light[k][c] = urad::radiosity_get(state, std::uint16_t(k), c) * fixed.exitance_unit();
+    return relative_rms(scene, light, solver.exact().radiosity);
+  };
   ChipSolve solve;
-  solve.shots = int(state.counters.shots);
-  solve.light = relative_rms(scene, light, solver.exact().radiosity);
+  bool stopped = false;
+  for (int shot = 0; status == urad::Status::ok; ++shot) {
+    if (!solve.shots_to_percent && light_error() <= kPercent) solve.shots_to_percent = shot;
+    if (!stopped && urad::radiosity_done(state, URAD_PERCENT)) {
+      stopped = true;
+      solve.shots = shot;
+      solve.light = light_error();
+    }
+    if ((stopped && solve.shots_to_percent) || shot == *converged(scene).shots) break;
+    status = urad::radiosity_step(&state);
+  }
+  if (status != urad::Status::ok || !stopped)
+    throw Error(scene.name + ": the engine could not solve it by network");
   solve.ram_bytes = bytes + sizeof state + source.ram_bytes();
   solve.net_bytes = net.flash_bytes();
   return solve;

@@ -28,6 +28,7 @@ SceneNetTrial try_scene_net(SceneSolver& solver, NetFile net);
 /// What a chip does: shoots until the engine's own estimate says 1 %.
 struct ChipSolve {
   int shots = 0;
+  int shots_to_percent = 0;   ///< to 1 % indeed
   double light = 0;           ///< relative rms of B against the exact solution
   std::size_t ram_bytes = 0;  ///< of solver and source
   int net_bytes = 0;

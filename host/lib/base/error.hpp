@@ -9,4 +9,9 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same for what was typed rather than what was read: a method or setting that does not exist.
+struct UsageError : Error {
+  using Error::Error;
+};
+
 }  // namespace host

@@ -12,6 +12,7 @@
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
+#include "urad/lambert.hpp"
 #include "urad/visibility.hpp"
 
 namespace host {
@@ -19,9 +20,11 @@ namespace host {
 namespace {
 
 constexpr int kDefaultHemicube = 64;
-constexpr std::uint32_t kNearRho_uq16 = 1365;  // three patches between them: centres four apart, for equal squares
+constexpr std::uint32_t kNearRho_uq16 =
+    1365;  // three patches between them: centres four apart, for equal squares
 
-constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "net", "hemicube", "hybrid"};
+constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert",
+                                       "net",          "hemicube",     "hybrid"};
 
 void add(urad_counters* sum, const urad_counters& part) {
   auto* to = reinterpret_cast<std::uint32_t*>(sum);
@@ -43,13 +46,16 @@ struct HemicubeHolder {
     urad::fill_hemicube_cells(resolution, scratch.data(), top.data(), side.data());
     const bool convex = scene.flags & URAD_SCENE_CONVEX;
     const auto rows = std::uint16_t(convex ? 0 : resolution);
-    const auto flags = std::uint8_t(urad::hemicube_turned | (coverage && !convex ? urad::hemicube_coverage : 0));
-    bytes = urad::hemicube_bytes(std::uint16_t(resolution), rows, scene.patch_count, coverage && !convex);
+    const auto flags =
+        std::uint8_t(urad::hemicube_turned | (coverage && !convex ? urad::hemicube_coverage : 0));
+    bytes = urad::hemicube_bytes(std::uint16_t(resolution), rows, scene.patch_count,
+                                 coverage && !convex);
     memory.resize((bytes + 3) / 4);
     const urad::HemicubeTable table{std::uint16_t(resolution), top.data(), side.data()};
-    if (urad::hemicube_init(&source, &scene, table, rows, flags, memory.data(), memory.size() * 4, counters) !=
-        urad::Status::ok) {
-      throw Error(fmt::format("hemicube:{}: the resolution should be even, from 16 to 128", resolution));
+    if (urad::hemicube_init(&source, &scene, table, rows, flags, memory.data(), memory.size() * 4,
+                            counters) != urad::Status::ok) {
+      throw UsageError(
+          fmt::format("hemicube:{}: the resolution should be even, from 16 to 128", resolution));
     }
   }
 };
@@ -66,7 +72,7 @@ struct EngineSource::State {
   std::size_t ram = 0;
 
   void use_pairs(urad::Kernel kernel, const urad_net* net, const EngineOptions& options) {
-    pairs = {scene, net, kernel, std::uint16_t(options.rays), options.skips, &counters};
+    pairs = {scene, net, kernel, std::uint16_t(options.rays), options.skips, &counters, 0};
     source = {urad::pair_fill, &pairs};
     ram = sizeof pairs;
   }
@@ -80,7 +86,8 @@ struct EngineSource::State {
   void use_hybrid(int resolution, const urad_net* net, const EngineOptions& options) {
     use_hemicube(resolution, true);
     const bool convex = scene->flags & URAD_SCENE_CONVEX;
-    if (urad::hybrid_init(&hybrid, &hemicube.source, urad::Kernel::moment, net, std::uint16_t(options.rays),
+    if (urad::hybrid_init(&hybrid, &hemicube.source, urad::Kernel::moment, net,
+                          std::uint16_t(options.rays),
                           convex ? kNearRho_uq16 : 0) != urad::Status::ok) {
       throw Error("hybrid: the engine refused the hemicube");
     }
@@ -101,16 +108,22 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
     state_->use_pairs(urad::Kernel::centre, nullptr, options);
   } else if (spec.name == "fixed-moment") {
     state_->use_pairs(urad::Kernel::moment, nullptr, options);
+  } else if (spec.name == "fixed-lambert") {
+    state_->use_pairs(urad::Kernel::moment, nullptr, options);
+    state_->pairs.points = std::uint8_t(spec.number(1, 1, urad::kMostLambertPoints));
   } else if (spec.name == "net") {
     state_->use_pairs(urad::Kernel::moment, &nets.find(spec.argument), options);
   } else if (spec.name == "hemicube") {
-    state_->use_hemicube(spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution), false);
+    state_->use_hemicube(
+        spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
+        false);
   } else if (spec.name == "hybrid") {
-    state_->use_hybrid(spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
-                       &nets.find(""), options);
+    state_->use_hybrid(
+        spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
+        &nets.find(""), options);
   } else {
-    throw Error(fmt::format("--method {}: not a method of the engine; those are {}", spec.text(),
-                            fmt::join(kEngineMethods, ", ")));
+    throw UsageError(fmt::format("--method {}: not a method of the engine; those are {}",
+                                 spec.text(), fmt::join(kEngineMethods, ", ")));
   }
 }
 
@@ -125,9 +138,11 @@ void EngineSource::row(std::uint16_t shooter, std::uint32_t* f_uq32) const {
   const urad_scene& scene = *state_->scene;
   for (std::uint16_t s = 0; s < scene.surface_count; ++s) {
     const urad_surface& surface = scene.surface[s];
-    const urad_status status = state_->source.fill(state_->source.context, shooter, s, surface.first_patch,
-                                                   surface.patch_count, f_uq32 + surface.first_patch);
-    if (status != URAD_OK) throw Error(fmt::format("patch {}: the engine answered status {}", shooter, int(status)));
+    const urad_status status =
+        state_->source.fill(state_->source.context, shooter, s, surface.first_patch,
+                            surface.patch_count, f_uq32 + surface.first_patch);
+    if (status != URAD_OK)
+      throw Error(fmt::format("patch {}: the engine answered status {}", shooter, int(status)));
   }
 }
 
@@ -155,8 +170,9 @@ double EngineVisibility::fraction(std::uint16_t shooter, std::uint16_t receiver)
   }
   const double covered = state_->hemicube.source.coverage_uq32[receiver];
   if (covered > 0) return std::min(1.0, state_->hemicube.source.visible_uq32[receiver] / covered);
-  return urad::visible_fraction_uq16(scene, urad::patch_at(scene, shooter), urad::patch_at(scene, receiver),
-                                     std::uint16_t(state_->rays), true, &state_->counters) /
+  return urad::visible_fraction_uq16(scene, urad::patch_at(scene, shooter),
+                                     urad::patch_at(scene, receiver), std::uint16_t(state_->rays),
+                                     true, &state_->counters) /
          65536.0;
 }
 

@@ -19,15 +19,19 @@ struct EngineOptions {
 /// True for the methods that run in the engine's integers.
 bool is_engine_method(const MethodSpec& spec);
 
-/// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive it.
-///   fixed-kernel, fixed-moment, net[:NAME]    pairs, times the visible fraction by rays
+/// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive
+/// it.
+///   fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME]    pairs, times the visible fraction by rays
 ///   hemicube:R                                item buffer, turned (none in a convex scene)
-///   hybrid[:R]                                occluded: visible fraction of the hemicube times the network's factor;
-///                                             convex: the network for pairs with less than 3 patches between them, else the hemicube's
+///   hybrid[:R]                                occluded: visible fraction of the hemicube times the
+///   network's factor;
+///                                             convex: the network for pairs with less than 3
+///                                             patches between them, else the hemicube's
 class EngineSource {
  public:
   /// Throws Error for an unknown method or a value out of range.
-  EngineSource(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets, const EngineOptions& options);
+  EngineSource(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets,
+               const EngineOptions& options);
   ~EngineSource();
   EngineSource(EngineSource&&) noexcept;
 
@@ -48,7 +52,8 @@ class EngineVisibility {
  public:
   EngineVisibility(const FixedScene& scene, int resolution, int rays);
   ~EngineVisibility();
-  /// Fraction of patch `receiver` that `shooter` sees, 0 .. 1. Not thread-safe: renders when the shooter changes.
+  /// Fraction of patch `receiver` that `shooter` sees, 0 .. 1. Not thread-safe: renders when the
+  /// shooter changes.
   double fraction(std::uint16_t shooter, std::uint16_t receiver) const;
 
  private:
@@ -64,7 +69,9 @@ struct EngineRows {
   std::size_t ram_bytes = 0;
   double seconds = 0;  ///< of all threads together
 
-  double operator()(std::size_t i, std::size_t j) const { return f_uq32[i * patches + j] / 4294967296.0; }
+  double operator()(std::size_t i, std::size_t j) const {
+    return f_uq32[i * patches + j] / 4294967296.0;
+  }
 };
 
 EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets,

@@ -11,8 +11,9 @@ const urad_net& NetChoice::find(const std::string& name) const {
   const std::string wanted = name.empty() ? "general" : name;
   const urad_net* net = shipped ? shipped(wanted) : nullptr;
   if (!net) {
-    throw Error(fmt::format("net:{}: there is no shipped network of that name; train one and give its file with --net",
-                            wanted));
+    throw UsageError(fmt::format(
+        "net:{}: there is no shipped network of that name; train one and give its file with --net",
+        wanted));
   }
   return *net;
 }

@@ -7,8 +7,8 @@
 
 namespace host {
 
-/// Finds a shipped network by name; null when there is none. The library itself knows no weights: a program that has some
-/// hands this in.
+/// Finds a shipped network by name; null when there is none. The library itself knows no weights: a
+/// program that has some hands this in.
 using NetLookup = std::function<const urad_net*(const std::string& name)>;
 
 /// Shipped networks and the file of --net, if any.
@@ -16,7 +16,8 @@ struct NetChoice {
   NetLookup shipped;
   const urad_net* file = nullptr;
 
-  /// `net:NAME` is the shipped NAME; `net` is the file of --net or else the general network. Throws Error.
+  /// `net:NAME` is the shipped NAME; `net` is the file of --net or else the general network. Throws
+  /// Error.
   const urad_net& find(const std::string& name) const;
 };
 

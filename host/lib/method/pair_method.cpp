@@ -19,19 +19,25 @@ namespace {
 constexpr int kMostPoints = 32;
 constexpr int kMostSamples = 1'000'000'000;
 
-FreePairMethod exact(std::function<Estimate(const Polygon&, const Polygon&)> run, bool knows_error) {
-  return {[run = std::move(run)](const Polygon& p, const Polygon& q) { return PairResult{run(p, q)}; }, knows_error};
+FreePairMethod exact(std::function<Estimate(const Polygon&, const Polygon&)> run,
+                     bool knows_error) {
+  return {
+      [run = std::move(run)](const Polygon& p, const Polygon& q) { return PairResult{run(p, q)}; },
+      knows_error};
 }
 
 /// The pair as a scene of two surfaces, and one factor of its row: integers all the way.
 FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
-  EngineSource(FixedScene::of_polygons({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}}, {}),
-               spec, nets, {});  // refuses a bad setting before the first pair
+  EngineSource(
+      FixedScene::of_polygons(
+          {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}}, {}),
+      spec, nets, {});  // refuses a bad setting before the first pair
   const auto run = [spec, &nets](const Polygon& p, const Polygon& q) {
     for (const Polygon* polygon : {&p, &q}) {
       std::size_t vertices = polygon->outer.size();
       for (const Loop& hole : polygon->holes) vertices += hole.size() + 2;
-      if (vertices > URAD_POLYGON_MAX_VERTICES) return PairResult{{}, "unsupported_too_many_vertices"};
+      if (vertices > URAD_POLYGON_MAX_VERTICES)
+        return PairResult{{}, "unsupported_too_many_vertices"};
     }
     const FixedScene scene = FixedScene::of_polygons({p, q}, {});
     const EngineSource source(scene, spec, nets, {});
@@ -52,17 +58,20 @@ const std::map<std::string, Maker>& host_methods() {
       {"lambert",
        [](const MethodSpec& spec) {
          const int n = spec.number(1, 1, kMostPoints);
-         return exact([n](const Polygon& p, const Polygon& q) { return lambert_estimate(p, q, n); }, false);
+         return exact([n](const Polygon& p, const Polygon& q) { return lambert_estimate(p, q, n); },
+                      false);
        }},
       {"gauss",
        [](const MethodSpec& spec) {
          const int n = spec.number(2, 1, kMostPoints);
-         return exact([n](const Polygon& p, const Polygon& q) { return gauss_estimate(p, q, n); }, false);
+         return exact([n](const Polygon& p, const Polygon& q) { return gauss_estimate(p, q, n); },
+                      false);
        }},
       {"monte-carlo",
        [](const MethodSpec& spec) {
          const int n = spec.number(10000, 16, kMostSamples);
-         return exact([n](const Polygon& p, const Polygon& q) { return monte_carlo(p, q, n); }, true);
+         return exact([n](const Polygon& p, const Polygon& q) { return monte_carlo(p, q, n); },
+                      true);
        }},
   };
   return makers;
@@ -74,9 +83,11 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
   if (is_engine_method(spec) && spec.name != "hybrid") return in_engine(spec, nets);
   const auto maker = host_methods().find(spec.name);
   if (maker == host_methods().end()) {
-    throw Error(fmt::format("--method {}: unknown; known are reference, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, "
-                            "moment, fixed-kernel, fixed-moment, net[:NAME], hemicube:R",
-                            spec.text()));
+    throw UsageError(
+        fmt::format("--method {}: unknown; known are reference, lambert:N, gauss:N, "
+                    "monte-carlo:SAMPLES, kernel, "
+                    "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R",
+                    spec.text()));
   }
   return maker->second(spec);
 }

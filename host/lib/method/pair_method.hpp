@@ -22,7 +22,8 @@ struct FreePairMethod {
   bool knows_error = false;  ///< fills estimate.relative_error
 };
 
-/// Throws Error for an unknown name (listing those known) or a value out of range. `nets` must outlive the result.
+/// Throws Error for an unknown name (listing those known) or a value out of range. `nets` must
+/// outlive the result.
 FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets);
 
 }  // namespace host

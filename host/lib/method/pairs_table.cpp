@@ -19,20 +19,22 @@ PairResult refused(PolygonStatus status) {
           std::string(name(status))};
 }
 
-Row evaluate(const std::string& p_text, const std::string& q_text, const std::vector<FreePairMethod>& methods) {
+Row evaluate(const std::string& p_text, const std::string& q_text,
+             const std::vector<FreePairMethod>& methods) {
   Row row;
   const ParsedPolygon p = parse_polygon(p_text), q = parse_polygon(q_text);
   const PolygonStatus status = p.status != PolygonStatus::ok ? p.status : q.status;
   for (const FreePairMethod& method : methods) {
-    row.results.push_back(status == PolygonStatus::ok ? method.run(p.polygon, q.polygon) : refused(status));
+    row.results.push_back(status == PolygonStatus::ok ? method.run(p.polygon, q.polygon)
+                                                      : refused(status));
   }
   return row;
 }
 
 }  // namespace
 
-std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& specs, const NetChoice& nets, int threads,
-                        bool quiet) {
+std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& specs,
+                        const NetChoice& nets, int threads, bool quiet) {
   const std::size_t id = pairs.column("id"), p = pairs.column("p"), q = pairs.column("q");
   std::vector<FreePairMethod> methods;
   std::vector<std::string> header{"id"};
@@ -59,7 +61,8 @@ std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& sp
       const bool ok = result.status == "ok";
       cells.push_back(ok ? csv_number(result.estimate.f) : "");
       cells.push_back(result.status);
-      if (methods[m].knows_error) cells.push_back(ok ? csv_number(result.estimate.relative_error) : "");
+      if (methods[m].knows_error)
+        cells.push_back(ok ? csv_number(result.estimate.relative_error) : "");
     }
     text += csv_line(cells);
   }

@@ -44,7 +44,8 @@ void add_row(OccludedPlates* plates, const std::string& role, const std::string&
 }
 
 std::vector<OccludedPlates> read_scenes(const CsvTable& rows) {
-  const std::size_t scene = rows.column("scene"), role = rows.column("role"), polygon = rows.column("polygon");
+  const std::size_t scene = rows.column("scene"), role = rows.column("role"),
+                    polygon = rows.column("polygon");
   std::vector<OccludedPlates> scenes;
   std::map<std::string, std::size_t> known;
   for (const CsvRow& row : rows.rows) {
@@ -52,7 +53,8 @@ std::vector<OccludedPlates> read_scenes(const CsvTable& rows) {
     if (added) scenes.push_back({row.cells[scene], {}, {}, {}});
     const std::string& letter = row.cells[role];
     if (letter != "P" && letter != "Q" && letter != "B") {
-      throw Error(fmt::format("{}:{}: role \"{}\" should be P, Q or B", rows.name, row.line, letter));
+      throw Error(
+          fmt::format("{}:{}: role \"{}\" should be P, Q or B", rows.name, row.line, letter));
     }
     add_row(&scenes[at->second], letter, row.cells[polygon]);
   }
@@ -63,12 +65,14 @@ std::vector<OccludedPlates> read_scenes(const CsvTable& rows) {
   return scenes;
 }
 
-/// False when the blocker cannot touch any segment between p and q: it lies behind one of the planes, or outside their box.
+/// False when the blocker cannot touch any segment between p and q: it lies behind one of the
+/// planes, or outside their box.
 bool may_block(const Polygon& p, const Polygon& q, const Polygon& blocker) {
   const auto behind = [&blocker](const Moments& plane) {
     const double tolerance = 1e-12 * glm::length(plane.centroid - blocker.outer.front());
-    return std::all_of(blocker.outer.begin(), blocker.outer.end(),
-                       [&](const Vec3& x) { return glm::dot(plane.normal, x - plane.centroid) <= tolerance; });
+    return std::all_of(blocker.outer.begin(), blocker.outer.end(), [&](const Vec3& x) {
+      return glm::dot(plane.normal, x - plane.centroid) <= tolerance;
+    });
   };
   if (behind(moments(p)) || behind(moments(q))) return false;
   Vec3 low = p.outer.front(), high = low;
@@ -76,9 +80,13 @@ bool may_block(const Polygon& p, const Polygon& q, const Polygon& blocker) {
     for (const Vec3& x : polygon->outer) low = glm::min(low, x), high = glm::max(high, x);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const auto beyond = [&](auto outside) { return std::all_of(blocker.outer.begin(), blocker.outer.end(), outside); };
-    if (beyond([&](const Vec3& x) { return x[axis] <= low[axis]; }) && low[axis] < high[axis]) return false;
-    if (beyond([&](const Vec3& x) { return x[axis] >= high[axis]; }) && low[axis] < high[axis]) return false;
+    const auto beyond = [&](auto outside) {
+      return std::all_of(blocker.outer.begin(), blocker.outer.end(), outside);
+    };
+    if (beyond([&](const Vec3& x) { return x[axis] <= low[axis]; }) && low[axis] < high[axis])
+      return false;
+    if (beyond([&](const Vec3& x) { return x[axis] >= high[axis]; }) && low[axis] < high[axis])
+      return false;
   }
   return true;
 }
@@ -94,8 +102,9 @@ using PieceMethod = std::function<PieceResult(const OccludedPlates&, const Polyg
 PieceResult by_reference(const OccludedPlates& plates, const Polygon& piece) {
   PieceResult result;
   for (const Polygon& q : plates.to) {
-    const bool clear = std::none_of(plates.blockers.begin(), plates.blockers.end(),
-                                    [&](const Polygon& blocker) { return may_block(piece, q, blocker); });
+    const bool clear =
+        std::none_of(plates.blockers.begin(), plates.blockers.end(),
+                     [&](const Polygon& blocker) { return may_block(piece, q, blocker); });
     if (!clear) return {0, "unsupported_occluded"};
     result.exchange += reference_exchange(piece, q);
   }
@@ -122,20 +131,22 @@ PieceResult by_rays(const OccludedPlates& plates, const Polygon& piece, int rays
   const FixedScene scene = fixed_scene(plates, piece);
   urad_counters counters{};
   for (std::size_t k = 0; k < plates.to.size(); ++k) {
-    const std::uint32_t seen_uq16 =
-        urad::visible_fraction_uq16(scene.pod(), urad::patch_at(scene.pod(), 0),
-                                    urad::patch_at(scene.pod(), std::uint16_t(k + 1)), std::uint16_t(rays), true, &counters);
+    const std::uint32_t seen_uq16 = urad::visible_fraction_uq16(
+        scene.pod(), urad::patch_at(scene.pod(), 0),
+        urad::patch_at(scene.pod(), std::uint16_t(k + 1)), std::uint16_t(rays), true, &counters);
     result.exchange += seen_uq16 / 65536.0 * reference_exchange(piece, plates.to[k]);
   }
   return result;
 }
 
-PieceResult by_hemicube(const OccludedPlates& plates, const Polygon& piece, const MethodSpec& spec, const NetChoice& nets) {
+PieceResult by_hemicube(const OccludedPlates& plates, const Polygon& piece, const MethodSpec& spec,
+                        const NetChoice& nets) {
   const FixedScene scene = fixed_scene(plates, piece);
   std::vector<std::uint32_t> row(plates.to.size() + 1);
   EngineSource(scene, spec, nets, {}).row(0, row.data());
   PieceResult result;
-  for (std::size_t k = 1; k < row.size(); ++k) result.exchange += moments(piece).area * row[k] / 4294967296.0;
+  for (std::size_t k = 1; k < row.size(); ++k)
+    result.exchange += moments(piece).area * row[k] / 4294967296.0;
   return result;
 }
 
@@ -145,7 +156,8 @@ PieceResult by_hybrid(const OccludedPlates& plates, const Polygon& piece, int re
   const EngineVisibility visible(scene, resolution, kRaysForUncovered);
   PieceResult result;
   for (std::size_t k = 0; k < plates.to.size(); ++k) {
-    result.exchange += visible.fraction(0, std::uint16_t(k + 1)) * reference_exchange(piece, plates.to[k]);
+    result.exchange +=
+        visible.fraction(0, std::uint16_t(k + 1)) * reference_exchange(piece, plates.to[k]);
   }
   return result;
 }
@@ -154,7 +166,8 @@ PieceMethod piece_method(const MethodSpec& spec, const NetChoice& nets) {
   if (spec.name == "reference") return by_reference;
   if (spec.name == "monte-carlo") {
     const int n = spec.number(100000, 16, 1'000'000'000);
-    return [n](const auto& plates, const Polygon& piece) { return by_monte_carlo(plates, piece, n); };
+    return
+        [n](const auto& plates, const Polygon& piece) { return by_monte_carlo(plates, piece, n); };
   }
   if (spec.name == "rays") {
     const int n = spec.number(256, 1, urad::kMaxRays);
@@ -162,15 +175,18 @@ PieceMethod piece_method(const MethodSpec& spec, const NetChoice& nets) {
   }
   if (spec.name == "hemicube") {
     spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
-    return [spec, &nets](const auto& plates, const Polygon& piece) { return by_hemicube(plates, piece, spec, nets); };
+    return [spec, &nets](const auto& plates, const Polygon& piece) {
+      return by_hemicube(plates, piece, spec, nets);
+    };
   }
   if (spec.name == "hybrid") {
     const int n = spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
     return [n](const auto& plates, const Polygon& piece) { return by_hybrid(plates, piece, n); };
   }
-  throw Error(fmt::format("--method {}: not for scenes with blockers; those are reference, monte-carlo:N, hemicube:R, "
-                          "hybrid[:R], rays:N",
-                          spec.text()));
+  throw UsageError(fmt::format(
+      "--method {}: not for scenes with blockers; those are reference, monte-carlo:N, hemicube:R, "
+      "hybrid[:R], rays:N",
+      spec.text()));
 }
 
 /// P in about n x n pieces.
@@ -202,8 +218,8 @@ PieceResult whole(const OccludedPlates& plates, const PieceMethod& method, int s
 
 }  // namespace
 
-std::string scenes_table(const CsvTable& rows, const MethodSpec& spec, const NetChoice& nets, int subdivide, int threads,
-                         bool quiet) {
+std::string scenes_table(const CsvTable& rows, const MethodSpec& spec, const NetChoice& nets,
+                         int subdivide, int threads, bool quiet) {
   const PieceMethod method = piece_method(spec, nets);
   const std::vector<OccludedPlates> scenes = read_scenes(rows);
   std::vector<PieceResult> results(scenes.size());
@@ -215,7 +231,8 @@ std::string scenes_table(const CsvTable& rows, const MethodSpec& spec, const Net
   std::string text = csv_line({"scene", "f", "status"});
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const bool ok = results[k].status == "ok";
-    text += csv_line({scenes[k].name, ok ? csv_number(results[k].exchange) : "", results[k].status});
+    text +=
+        csv_line({scenes[k].name, ok ? csv_number(results[k].exchange) : "", results[k].status});
   }
   return text;
 }

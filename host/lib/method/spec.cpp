@@ -14,7 +14,8 @@ int MethodSpec::number(int otherwise, int least, int most) const {
   const char* end = argument.data() + argument.size();
   const auto [rest, failure] = std::from_chars(argument.data(), end, value);
   if (failure != std::errc() || rest != end || value < least || value > most) {
-    throw Error(fmt::format("--method {}: \"{}\" should be a whole number from {} to {}", text(), argument, least, most));
+    throw UsageError(fmt::format("--method {}: \"{}\" should be a whole number from {} to {}",
+                                 text(), argument, least, most));
   }
   return value;
 }
@@ -23,7 +24,7 @@ MethodSpec parse_method(const std::string& text) {
   const std::size_t colon = text.find(':');
   MethodSpec spec{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
   if (spec.name.empty() || (colon != std::string::npos && spec.argument.empty())) {
-    throw Error(fmt::format("--method: \"{}\" should be NAME or NAME:VALUE", text));
+    throw UsageError(fmt::format("--method: \"{}\" should be NAME or NAME:VALUE", text));
   }
   return spec;
 }

@@ -10,7 +10,8 @@ struct MethodSpec {
   std::string argument;  ///< after it, or empty
 
   std::string text() const { return argument.empty() ? name : name + ":" + argument; }
-  /// The argument as a whole number in [least, most], or `otherwise` when there is none. Throws Error.
+  /// The argument as a whole number in [least, most], or `otherwise` when there is none. Throws
+  /// Error.
   int number(int otherwise, int least, int most) const;
 };
 

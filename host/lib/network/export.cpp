@@ -125,13 +125,13 @@ std::string net_to_c(const NetFile& file, const std::string& name, int bits,
   text += fmt::format(
       "static const urad_net {0} = {{\n"
       "    /* abi */ {1}, /* flags */ {2}, /* inputs */ {3}, /* hidden */ {4},\n"
-      "    /* weight_bits */ {5}, 0, /* far_rho_uq16 */ {6}, 0,\n"
+      "    /* weight_bits */ {5}, 0, /* far_rho_uq16 */ {6}, /* near_rho_uq16 */ {10},\n"
       "    {0}_hidden_weight, {0}_hidden_bias, {0}_hidden_rescale,\n"
       "    {0}_output_weight, {0}_skip_weight,\n"
       "    /* output_bias */ {7}, /* output_rescale */ {8}, /* crc32 */ 0x{9:08X}u}};\n"
       "#endif\n",
       symbol, pod.abi, pod.flags, pod.inputs, pod.hidden, pod.weight_bits, pod.far_rho_uq16,
-      t.output_bias, braces(t.output_rescale), pod.crc32);
+      t.output_bias, braces(t.output_rescale), pod.crc32, pod.near_rho_uq16);
   return text;
 }
 

@@ -186,16 +186,15 @@ PolygonPair general_pair(PairFamily family, std::uint64_t seed, std::uint64_t in
 bool sample_of(const PolygonPair& pair, double far_rho, Sample* sample) {
   const FixedScene fixed = FixedScene::of_polygons({pair.p, pair.q}, {});
   const auto engine = engine_pair(fixed.pod(), 0, 1);
-  if (!engine) return false;
+  // Cut and very near pairs are handed over to the exact sum.
+  if (!engine || engine->clipped || engine->rho() > kGeneralNearRho) return false;
   const double exchange = reference_exchange(pair.p, pair.q);
   if (!(exchange > 0)) return false;
   std::copy_n(engine->invariants.input_q15, urad::kPairInputs, sample->input_q15.begin());
   sample->gate_uq16 = engine->rho() < far_rho ? std::uint16_t{0} : engine->invariants.gate_uq16;
   sample->target =
       std::log2(exchange) + 2 * std::log2(fixed.units_per_length()) - engine->log2_kernel();
-  // The network is meant for whole patches of moderate rho. Cut and very near pairs get what it can
-  // do besides.
-  sample->weight = engine->clipped || engine->rho() > 0.9 ? 0.2 : 1;
+  sample->weight = 1;
   return true;
 }
 

@@ -34,8 +34,11 @@ std::uint64_t general_seed(std::uint64_t training_seed, PairUse use);
 /// Pair number `index` of a family: the same for the same seed, whatever is asked for besides.
 PolygonPair general_pair(PairFamily family, std::uint64_t seed, std::uint64_t index);
 
+/// Above it a general net hands over to the exact sum.
+inline constexpr double kGeneralNearRho = 0.7;
+
 /// The pair as a sample (weight 1, target against the moment kernel). False when engine or
-/// reference sees no exchange.
+/// reference sees no exchange, and for pairs that a general net hands over.
 bool sample_of(const PolygonPair& pair, double far_rho, Sample* sample);
 
 /// Training and validation sets of the general network, on all cores; `scale` 1 is about 60,000

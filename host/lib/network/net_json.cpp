@@ -39,15 +39,11 @@ Json quantised_json(const QuantisedNet& net) {
   const NetTables& t = net.tables();
   Json rescales = Json::array();
   for (const urad_rescale& r : t.hidden_rescale) rescales.push_back(rescale_json(r));
-  return {{"weight_bits", t.weight_bits},
-          {"far_rho_uq16", t.far_rho_uq16},
-          {"hidden_weight", t.hidden_weight},
-          {"hidden_bias", t.hidden_bias},
-          {"hidden_rescale", rescales},
-          {"output_weight", t.output_weight},
-          {"skip_weight", t.skip_weight},
-          {"output_bias", t.output_bias},
-          {"output_rescale", rescale_json(t.output_rescale)},
+  return {{"weight_bits", t.weight_bits},     {"far_rho_uq16", t.far_rho_uq16},
+          {"near_rho_uq16", t.near_rho_uq16}, {"hidden_weight", t.hidden_weight},
+          {"hidden_bias", t.hidden_bias},     {"hidden_rescale", rescales},
+          {"output_weight", t.output_weight}, {"skip_weight", t.skip_weight},
+          {"output_bias", t.output_bias},     {"output_rescale", rescale_json(t.output_rescale)},
           {"crc32", net.pod().crc32}};
 }
 
@@ -162,6 +158,7 @@ QuantisedNet read_quantised(const Reader& reader, const FloatNet& net, int bits)
   if (t.weight_bits != bits)
     reader.fail(fmt::format("has weights of {} bits, not {}", t.weight_bits, bits));
   t.far_rho_uq16 = reader.integer<std::uint16_t>("far_rho_uq16");
+  t.near_rho_uq16 = reader.integer<std::uint16_t>("near_rho_uq16");
   t.hidden_weight = reader.integers<std::int16_t>("hidden_weight", inputs * hidden);
   t.hidden_bias = reader.integers<std::int32_t>("hidden_bias", hidden);
   for (const Json& pair : reader.array("hidden_rescale", hidden))

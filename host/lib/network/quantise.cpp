@@ -18,6 +18,9 @@ constexpr double kFullScale = 32768;
 // each.
 constexpr double kSumMax = 65535 - 33 / 2.0;
 
+// The engine's shifts begin at 17 (net.h). Larger weights than that lets through are cut.
+constexpr double kFactorMax = 0.5 - 0x1p-14;
+
 // Scale of one accumulator: real weight per integer. rescale is exact, so the weights can be
 // rounded against it.
 struct Scale {
@@ -27,9 +30,16 @@ struct Scale {
 
 // factor = unit * units_per_weight is what the accumulator is multiplied by.
 Scale scale_for(double least_unit, double units_per_weight) {
-  const double factor = std::max(least_unit * units_per_weight, 0x1p-31);
+  const double factor = std::clamp(least_unit * units_per_weight, 0x1p-31, kFactorMax);
   const urad_rescale rescale = rescale_of(factor * (1 + 0x1p-15));  // never finer than least_unit
   return {rescale, value_of(rescale) / units_per_weight};
+}
+
+// A threshold on rho that is 0 or more and below 1.
+std::uint16_t threshold_uq16(double rho, const char* which) {
+  if (!(rho >= 0 && rho < 1))
+    throw Error(fmt::format("the {} threshold is 0 or more and below 1, not {}", which, rho));
+  return static_cast<std::uint16_t>(std::min(65535.0, std::round(rho * 65536)));
 }
 
 double weight_max(int bits) { return bits == 8 ? 127 : 32767; }
@@ -78,13 +88,11 @@ void round_rest(const FloatNet& net, const std::vector<Scale>& scales, NetTables
 
 NetTables empty_tables(const FloatNet& net, int bits, double far_rho) {
   if (bits != 8 && bits != 16) throw Error(fmt::format("weights have 8 or 16 bits, not {}", bits));
-  if (!(far_rho >= 0 && far_rho < 1))
-    throw Error(fmt::format("the far threshold is 0 or more and below 1, not {}", far_rho));
   NetTables tables;
   tables.inputs = net.inputs();
   tables.hidden = net.hidden();
   tables.weight_bits = bits;
-  tables.far_rho_uq16 = static_cast<std::uint16_t>(std::min(65535.0, std::round(far_rho * 65536)));
+  tables.far_rho_uq16 = threshold_uq16(far_rho, "far");
   tables.hidden_weight.assign(std::size_t(net.inputs() * net.hidden()), 0);
   return tables;
 }
@@ -169,7 +177,8 @@ NetTables round_net(const FloatNet& net, int weight_bits, double far_rho) {
     scales.push_back(hidden_scale(net, h, weight_bits));
     for (int n = 0; n < net.inputs(); ++n)
       tables.hidden_weight[std::size_t(h * net.inputs() + n)] =
-          round16(net.hidden_weight(h, n) / scales.back().unit);
+          round16(std::clamp(net.hidden_weight(h, n) / scales.back().unit, -weight_max(weight_bits),
+                             weight_max(weight_bits)));
   }
   round_rest(net, scales, &tables);
   return tables;
@@ -180,6 +189,12 @@ QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
   if (weight_bits == 8 && compensation.training != nullptr)
     return quantise_narrow(net, far_rho, compensation);
   return QuantisedNet(round_net(net, weight_bits, far_rho));
+}
+
+QuantisedNet with_near_rho(const QuantisedNet& net, double near_rho) {
+  NetTables tables = net.tables();
+  tables.near_rho_uq16 = threshold_uq16(near_rho, "near");
+  return QuantisedNet(tables);
 }
 
 }  // namespace host

@@ -28,4 +28,8 @@ struct Compensation {
 QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
                       const Compensation& compensation);
 
+/// The same integers with the threshold above which, and for clipped pairs, the engine takes the
+/// exact sum. near_rho: 0 (never) or more, below 1, else Error.
+QuantisedNet with_near_rho(const QuantisedNet& net, double near_rho);
+
 }  // namespace host

@@ -20,8 +20,8 @@ void require(bool holds, const char* what) {
 }
 
 void check_rescale(const urad_rescale& r) {
-  require(r.multiplier >= 1 && r.shift >= 1 && r.shift <= 47,
-          "a multiplier is 0 or a shift is not 1 to 47");
+  require(r.multiplier >= 1 && r.shift >= 17 && r.shift <= 47,
+          "a multiplier is 0 or a shift is not 17 to 47");
 }
 
 // Largest |accumulator| over all inputs.
@@ -81,6 +81,7 @@ QuantisedNet::QuantisedNet(const NetTables& tables) {
   pod.hidden = static_cast<std::uint8_t>(t.hidden);
   pod.weight_bits = static_cast<std::uint8_t>(t.weight_bits);
   pod.far_rho_uq16 = t.far_rho_uq16;
+  pod.near_rho_uq16 = t.near_rho_uq16;
   pod.hidden_weight = t.weight_bits == 8 ? static_cast<const void*>(owned->narrow_weight.data())
                                          : static_cast<const void*>(t.hidden_weight.data());
   pod.hidden_bias = t.hidden_bias.data();

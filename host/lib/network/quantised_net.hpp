@@ -13,6 +13,7 @@ struct NetTables {
   int inputs = 0, hidden = 0;
   int weight_bits = 16;  ///< 8 or 16
   std::uint16_t far_rho_uq16 = 0;
+  std::uint16_t near_rho_uq16 = 0;  ///< 0: the net never hands over to the exact sum
   std::vector<std::int16_t> hidden_weight;  ///< [hidden][inputs]
   std::vector<std::int32_t> hidden_bias;
   std::vector<urad_rescale> hidden_rescale;

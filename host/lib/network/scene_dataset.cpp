@@ -68,6 +68,8 @@ SceneDataset scene_dataset(const Scene& scene, const FixedScene& fixed, double f
     if (!(exchange > 0)) return;
     pair.f_ij = exchange / p.moments.area;
     pair.f_ji = exchange / q.moments.area;
+    pair.rho = engine->rho();
+    pair.clipped = engine->clipped;
     pair.kind = kind_of(contact(p.polygon, q.polygon), engine->clipped, engine->rho(), far_rho);
     Sample sample;
     std::copy_n(engine->invariants.input_q15, urad::kPairInputs, sample.input_q15.begin());
@@ -101,16 +103,24 @@ SceneDataset scene_dataset(const Scene& scene, const FixedScene& fixed, double f
   return dataset;
 }
 
-TrainingSet scene_training_set(const SceneDataset& dataset, const std::vector<char>& use) {
+TrainingSet scene_training_set(const SceneDataset& dataset, const std::vector<char>& use,
+                               double near_rho) {
   TrainingSet set;
   set.samples = dataset.configurations;
+  if (near_rho > 0) {
+    std::vector<char> kept(set.samples.size(), 0);
+    for (const ScenePair& pair : dataset.pairs)
+      if (!handed_over(pair, near_rho)) kept[pair.configuration] = 1;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (!kept[k]) set.samples[k].gate_uq16 = 0;
+  }
   double sum_f = 0, sum_f2 = 0;
   for (const ScenePair& pair : dataset.pairs) {
     sum_f += pair.f_ij + pair.f_ji;
     sum_f2 += pair.f_ij * pair.f_ij + pair.f_ji * pair.f_ji;
   }
   for (const ScenePair& pair : dataset.pairs) {
-    if (!use[pair.configuration]) continue;
+    if (!use[pair.configuration] || handed_over(pair, near_rho)) continue;
     set.samples[pair.configuration].weight +=
         (pair.f_ij * pair.f_ij + pair.f_ji * pair.f_ji) / sum_f2 +
         kSmallFactorShare * (pair.f_ij + pair.f_ji) / sum_f;
@@ -119,6 +129,7 @@ TrainingSet scene_training_set(const SceneDataset& dataset, const std::vector<ch
     set.rows = std::uint32_t(dataset.patches);
     set.row_weight = kRowWeight;
     for (const ScenePair& pair : dataset.pairs) {
+      if (handed_over(pair, near_rho)) continue;
       set.row_terms.push_back({pair.i, pair.configuration, pair.f_ij});
       set.row_terms.push_back({pair.j, pair.configuration, pair.f_ji});
     }

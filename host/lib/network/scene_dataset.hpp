@@ -15,6 +15,8 @@ struct ScenePair {
   double f_ij = 0, f_ji = 0;  ///< exact, unoccluded
   std::uint32_t configuration = 0;
   PairKind kind = PairKind::middle;
+  double rho = 0;
+  bool clipped = false;
 };
 
 struct SceneDataset {
@@ -33,8 +35,15 @@ SceneDataset scene_dataset(const Scene& scene, const FixedScene& fixed, double f
 
 /// What a scene's training minimises: mean (F_ij e)^2 over ordered pairs, normalised, + a share of
 /// mean F e^2, so that small factors count too, + the squared error of row sums. Configurations
-/// with use[k] == 0 get weight 0, and row sums count only when all are used.
-TrainingSet scene_training_set(const SceneDataset& dataset, const std::vector<char>& use);
+/// with use[k] == 0 get weight 0, and row sums count only when all are used. Pairs that a net with
+/// this near_rho hands over to the exact sum are left out of all of it.
+TrainingSet scene_training_set(const SceneDataset& dataset, const std::vector<char>& use,
+                               double near_rho = 0);
+
+/// True when a net with this threshold leaves the pair to the exact sum.
+inline bool handed_over(const ScenePair& pair, double near_rho) {
+  return near_rho > 0 && (pair.clipped || pair.rho > near_rho);
+}
 
 /// Marks about `share` of the configurations, drawn from `seed`, as held out (0 in the result).
 std::vector<char> hold_out(const SceneDataset& dataset, double share, std::uint64_t seed);

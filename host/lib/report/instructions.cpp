@@ -19,7 +19,8 @@ constexpr const char* kBoard = "microbit";
 InstructionCounts::InstructionCounts(const std::string& path) : text_(read_file(path)) {
   const auto json = nlohmann::json::parse(text_, nullptr, false);
   if (json.is_discarded() || !json.is_object() || !json.contains(kBoard)) {
-    throw Error(fmt::format("{}: not a table of counted instructions; bench/icount/run.sh writes one", path));
+    throw Error(fmt::format(
+        "{}: not a table of counted instructions; bench/icount/run.sh writes one", path));
   }
 }
 
@@ -40,10 +41,13 @@ std::optional<double> InstructionCounts::per_pair(const std::string& method) con
 }
 
 std::optional<double> InstructionCounts::per_shot(const std::string& method) const {
-  static const std::map<std::string, std::string> names = {{"net", "shot_network"},
-                                                           {"fixed-moment", "shot_moment"},
-                                                           {"hemicube:32", "shot_hemicube_32"},
-                                                           {"hybrid:32", "shot_hemicube_32_near_network"}};
+  static const std::map<std::string, std::string> names = {
+      {"net", "shot_network"},
+      {"fixed-moment", "shot_moment"},
+      {"hemicube:32", "shot_hemicube_32"},
+      {"hybrid:32", "shot_hemicube_32_near_network"},
+                                                           {"hemicube:64", "shot_hemicube_64"},
+                                                           {"hybrid:64", "shot_hemicube_64_near_network"}};
   const auto found = names.find(method);
   return found == names.end() ? std::nullopt : mean(found->second);
 }

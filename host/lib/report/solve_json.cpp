@@ -11,15 +11,27 @@ using Json = nlohmann::ordered_json;
 Json three(const std::int64_t* x) { return Json::array({x[0], x[1], x[2]}); }
 
 Json facts(const Scene& scene) {
-  return {{"name", scene.name},       {"patches", scene.patches.size()}, {"surfaces", scene.surfaces.size()},
-          {"blockers", scene.blockers.size()}, {"convex", scene.convex},          {"closed", scene.closed}};
+  return {{"name", scene.name},
+          {"patches", scene.patches.size()},
+          {"surfaces", scene.surfaces.size()},
+          {"blockers", scene.blockers.size()},
+          {"convex", scene.convex},
+          {"closed", scene.closed}};
 }
 
 Json sweep(const urad_counters& c) {
-  return {{"evaluated", c.evaluated},       {"skipped_same", c.skipped_same}, {"skipped_facing", c.skipped_facing},
-          {"clipped", c.clipped},           {"far_pairs", c.far_pairs},       {"blocked", c.blocked},
-          {"rays", c.rays},                 {"ray_tests", c.ray_tests},       {"hemicube_faces", c.faces},
-          {"hemicube_faces_empty", c.faces_empty}, {"hemicube_cells", c.cells}};
+  return {{"evaluated", c.evaluated},
+          {"skipped_same", c.skipped_same},
+          {"skipped_facing", c.skipped_facing},
+          {"clipped", c.clipped},
+          {"far_pairs", c.far_pairs},
+          {"near_pairs", c.near_pairs},
+          {"blocked", c.blocked},
+          {"rays", c.rays},
+          {"ray_tests", c.ray_tests},
+          {"hemicube_faces", c.faces},
+          {"hemicube_faces_empty", c.faces_empty},
+          {"hemicube_cells", c.cells}};
 }
 
 Json shots(const urad_radiosity_counters& c) {
@@ -41,7 +53,8 @@ std::string solve_json(const Scene& scene, const std::string& method, const Meth
       {"scene", facts(scene)},
       {"method", method},
       {"shots", solution.shots},
-      {"error", {{"converged_rms", solution.error}, {"exact_rms", run.rms}, {"exact_max", run.max}}},
+      {"error",
+       {{"converged_rms", solution.error}, {"exact_rms", run.rms}, {"exact_max", run.max}}},
       {"form_factors",
        {{"pairs", run.factors.pairs},
         {"std", run.factors.std},
@@ -59,17 +72,19 @@ std::string solve_json(const Scene& scene, const std::string& method, const Meth
         {"unshot", three(solution.ledger.unshot)},
         {"escaped", three(solution.ledger.escaped)},
         {"exact", solution.ledger_exact}}},
-      {"memory", {{"solver_ram_bytes", solution.ram_bytes}, {"source_ram_bytes", run.rows.ram_bytes}}},
+      {"memory",
+       {{"solver_ram_bytes", solution.ram_bytes}, {"source_ram_bytes", run.rows.ram_bytes}}},
   };
   return json.dump(2) + "\n";
 }
 
 std::string exact_json(const Scene& scene, const ExactSolution& exact) {
   const Eigen::VectorXd sums = exact.form_factors.rowwise().sum();
-  const Json json = {{"scene", facts(scene)},
-                     {"method", "exact"},
-                     {"form_factors", {{"row_least", sums.minCoeff()}, {"row_most", sums.maxCoeff()}}},
-                     {"host_seconds", exact.seconds}};
+  const Json json = {
+      {"scene", facts(scene)},
+      {"method", "exact"},
+      {"form_factors", {{"row_least", sums.minCoeff()}, {"row_most", sums.maxCoeff()}}},
+      {"host_seconds", exact.seconds}};
   return json.dump(2) + "\n";
 }
 

@@ -6,7 +6,8 @@
 
 namespace host {
 
-/// Shots, errors against the exact solution and the exact factors, counters of the sweep and the solve, energy ledger, bytes.
+/// Shots, errors against the exact solution and the exact factors, counters of the sweep and the
+/// solve, energy ledger, bytes.
 std::string solve_json(const Scene& scene, const std::string& method, const MethodRun& run);
 
 /// The same for the exact solution: seconds and row sums.

@@ -13,8 +13,8 @@ namespace {
 constexpr int kMostShotsPerPatch = 64;  // far beyond what reflectances below 0.99 need
 
 /// The engine's rows as a source: a load per factor.
-urad_status rows_fill(void* context, std::uint16_t shooter, std::uint16_t, std::uint16_t first, std::uint16_t count,
-                      std::uint32_t* f_uq32) {
+urad_status rows_fill(void* context, std::uint16_t shooter, std::uint16_t, std::uint16_t first,
+                      std::uint16_t count, std::uint32_t* f_uq32) {
   const auto& rows = *static_cast<const EngineRows*>(context);
   const auto from = rows.f_uq32.begin() + std::ptrdiff_t(shooter * rows.patches + first);
   std::copy(from, from + count, f_uq32);
@@ -25,7 +25,9 @@ Vec3 reflected(const Scene& scene, const std::vector<Vec3>& radiosity, std::size
   return radiosity[patch] - scene.material_of(patch).exitance;
 }
 
-bool reflects(const Scene& scene, std::size_t patch) { return scene.material_of(patch).reflectance != Vec3(0); }
+bool reflects(const Scene& scene, std::size_t patch) {
+  return scene.material_of(patch).reflectance != Vec3(0);
+}
 
 std::vector<Vec3> read_radiosity(const urad_radiosity& state, const FixedScene& fixed) {
   std::vector<Vec3> radiosity(fixed.pod().patch_count);
@@ -39,7 +41,8 @@ std::vector<Vec3> read_radiosity(const urad_radiosity& state, const FixedScene& 
 
 }  // namespace
 
-double relative_rms(const Scene& scene, const std::vector<Vec3>& radiosity, const std::vector<Vec3>& truth) {
+double relative_rms(const Scene& scene, const std::vector<Vec3>& radiosity,
+                    const std::vector<Vec3>& truth) {
   double off = 0, all = 0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
     if (!reflects(scene, k)) continue;
@@ -50,7 +53,8 @@ double relative_rms(const Scene& scene, const std::vector<Vec3>& radiosity, cons
   return all > 0 ? std::sqrt(off / all) : 0;
 }
 
-double relative_max(const Scene& scene, const std::vector<Vec3>& radiosity, const std::vector<Vec3>& truth) {
+double relative_max(const Scene& scene, const std::vector<Vec3>& radiosity,
+                    const std::vector<Vec3>& truth) {
   double off = 0, most = 0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
     if (!reflects(scene, k)) continue;
@@ -71,8 +75,9 @@ FixedSolution fixed_solve(const Scene& scene, const FixedScene& fixed, const Eng
   urad_radiosity state;
   const urad_source source{rows_fill, const_cast<EngineRows*>(&rows)};
   const auto start = std::chrono::steady_clock::now();
-  urad::Status status = urad::radiosity_init(&state, &pod, source, goal.overshoot ? URAD_OVERSHOOT : 0, run,
-                                             memory.data(), solution.ram_bytes);
+  urad::Status status =
+      urad::radiosity_init(&state, &pod, source, goal.overshoot ? URAD_OVERSHOOT : 0, run,
+                           memory.data(), solution.ram_bytes);
 
   const int look = std::max(1, int(pod.patch_count) / 32);
   const int most = goal.shots.value_or(kMostShotsPerPatch * int(pod.patch_count));
@@ -85,12 +90,14 @@ FixedSolution fixed_solve(const Scene& scene, const FixedScene& fixed, const Eng
     if (state.counters.shots == before) break;  // nothing left to shoot
   }
 
-  solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  solution.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   solution.status = urad_status(status);
   solution.radiosity = read_radiosity(state, fixed);
   solution.error = relative_rms(scene, solution.radiosity, converged);
   for (std::size_t k = 0; k < pod.patch_count; ++k) {
-    for (int c = 0; c < 3; ++c) solution.raw.push_back(urad::radiosity_get(state, std::uint16_t(k), c));
+    for (int c = 0; c < 3; ++c)
+      solution.raw.push_back(urad::radiosity_get(state, std::uint16_t(k), c));
   }
   solution.shots = int(state.counters.shots);
   solution.ledger_exact = urad::radiosity_audit(state, &solution.ledger);

@@ -27,32 +27,37 @@ Eigen::MatrixXd matrix(const EngineRows& rows) {
   return f;
 }
 
-/// What shooting with these rows converges to: j gains A_i F_ij / A_j of i's radiosity, whether the rows are reciprocal or
-/// not (those of a hemicube are not).
+/// What shooting with these rows converges to: j gains A_i F_ij / A_j of i's radiosity, whether the
+/// rows are reciprocal or not (those of a hemicube are not).
 Eigen::MatrixXd gathered(const Scene& scene, const EngineRows& rows) {
   Eigen::MatrixXd f = matrix(rows).transpose();
   for (Eigen::Index j = 0; j < f.rows(); ++j) {
     for (Eigen::Index i = 0; i < f.cols(); ++i) {
-      f(j, i) *= scene.patches[std::size_t(i)].moments.area / scene.patches[std::size_t(j)].moments.area;
+      f(j, i) *=
+          scene.patches[std::size_t(i)].moments.area / scene.patches[std::size_t(j)].moments.area;
     }
   }
   return f;
 }
 
-std::uint32_t uq32(double f) { return std::uint32_t(std::min(std::max(std::llround(f * 4294967296.0), 0LL), 4294967295LL)); }
+std::uint32_t uq32(double f) {
+  return std::uint32_t(std::min(std::max(std::llround(f * 4294967296.0), 0LL), 4294967295LL));
+}
 
 bool on_one_plane(const Scene& scene, std::size_t i, std::size_t j) {
   return scene.patches[i].surface == scene.patches[j].surface &&
          scene.surfaces[std::size_t(scene.patches[i].surface)].planar;
 }
 
-FactorErrors factor_errors(const Scene& scene, const Eigen::MatrixXd& f, const Eigen::MatrixXd& exact) {
+FactorErrors factor_errors(const Scene& scene, const Eigen::MatrixXd& f,
+                           const Eigen::MatrixXd& exact) {
   FactorErrors errors;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < scene.patches.size(); ++i) {
     double row = 0;
     for (std::size_t j = 0; j < scene.patches.size(); ++j) {
-      const double off = f(Eigen::Index(i), Eigen::Index(j)) - exact(Eigen::Index(i), Eigen::Index(j));
+      const double off =
+          f(Eigen::Index(i), Eigen::Index(j)) - exact(Eigen::Index(i), Eigen::Index(j));
       row += off;
       if (i == j || on_one_plane(scene, i, j)) continue;
       ++errors.pairs;
@@ -107,7 +112,8 @@ EngineRows SceneSolver::rows_of(const MethodSpec& spec, const NetChoice& nets) {
     progress.add();
     const double seen = scene_.convex ? 1 : visibility.fraction(i, j);
     if (seen == 0) return 0.0;
-    return seen * scene_.patches[i].moments.area * method.run(scene_.patches[i].polygon, scene_.patches[j].polygon).estimate.f;
+    return seen * scene_.patches[i].moments.area *
+           method.run(scene_.patches[i].polygon, scene_.patches[j].polygon).estimate.f;
   });
   EngineRows rows;
   rows.patches = scene_.patches.size();
@@ -129,11 +135,13 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   const Eigen::MatrixXd f = matrix(run.rows);
   run.factors = factor_errors(scene_, f, exact().form_factors);
   EngineRows repaired_rows = run.rows;
-  // The rows of a hemicube, alone or in a hybrid, sum to 1 by themselves and are not reciprocal anyway.
+  // The rows of a hemicube, alone or in a hybrid, sum to 1 by themselves and are not reciprocal
+  // anyway.
   if (scene_.closed && spec.name != "hemicube" && spec.name != "hybrid") {
     run.scale = symmetric_scale(scene_, f);
     fixed_.set_scale(run.scale);
-    repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, {}, threads_) : scaled(run.rows, run.scale);
+    repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, {}, threads_)
+                                           : scaled(run.rows, run.scale);
   }
   const std::vector<Vec3> converged = exact_radiosity(scene_, gathered(scene_, repaired_rows));
   run.solution = fixed_solve(scene_, fixed_, repaired_rows, converged, goal);

@@ -7,7 +7,8 @@
 
 namespace host {
 
-/// Form factors and radiosity in double: reference factors times visible fractions by rays, dense solve.
+/// Form factors and radiosity in double: reference factors times visible fractions by rays, dense
+/// solve.
 struct ExactSolution {
   Eigen::MatrixXd form_factors;
   std::vector<Vec3> radiosity;
@@ -16,17 +17,17 @@ struct ExactSolution {
 
 /// Errors of a method's factors against the exact ones, before repair.
 struct FactorErrors {
-  double std = 0, max = 0, bias = 0;        ///< over pairs of patches on different planes
-  double row_mean = 0, row_worst = 0;       ///< |sum of a row - exact sum|
+  double std = 0, max = 0, bias = 0;   ///< over pairs of patches on different planes
+  double row_mean = 0, row_worst = 0;  ///< |sum of a row - exact sum|
   std::size_t pairs = 0;
 };
 
 struct MethodRun {
-  EngineRows rows;                 ///< before repair
-  std::vector<double> scale;       ///< repair; empty when the scene is open
+  EngineRows rows;            ///< before repair
+  std::vector<double> scale;  ///< repair; empty when the scene is open
   FactorErrors factors;
   FixedSolution solution;
-  double rms = 0, max = 0;         ///< of B against the exact solution
+  double rms = 0, max = 0;  ///< of B against the exact solution
 };
 
 class SceneSolver {
@@ -38,8 +39,8 @@ class SceneSolver {
   const FixedScene& fixed() const { return fixed_; }
   /// Computed once, at the first call.
   const ExactSolution& exact();
-  /// A method of the engine, or a pair method in double whose factors (times the exact visible fractions) the engine
-  /// solves with. Throws Error for an unknown method.
+  /// A method of the engine, or a pair method in double whose factors (times the exact visible
+  /// fractions) the engine solves with. Throws Error for an unknown method.
   MethodRun run(const MethodSpec& spec, const NetChoice& nets, const SolveGoal& goal);
 
  private:

@@ -1,0 +1,212 @@
+// The program as a person meets it: exit status, one clear sentence, nothing half-written.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/csv.hpp"
+#include "base/file.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;
+  std::string text;  // stdout and stderr
+};
+
+Outcome urad(const std::string& arguments) {
+  const std::string command = std::string(URAD_PROGRAM) + " --quiet " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe);
+  Outcome outcome;
+  std::array<char, 4096> block;
+  for (std::size_t n; (n = fread(block.data(), 1, block.size(), pipe)) > 0;)
+    outcome.text.append(block.data(), n);
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+/// A folder of its own for each test case, empty at the start.
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::path(URAD_SCRATCH_DIR) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+const std::string kMaterials = "newmtl wall\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
+const std::string kScene =
+    "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nv 1 1 1\nv 1 0 1\n"
+    "usemtl wall\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n";
+
+std::string kernel_solve(const fs::path& folder) {
+  return "solve " + (folder / "scene.obj").string() + " --method fixed-moment --out " +
+         (folder / "b.csv").string();
+}
+
+struct BadScene {
+  const char* what;
+  std::string scene, materials;
+  const char* where;  ///< file and line the message must name
+};
+
+}  // namespace
+
+TEST_CASE("a bad scene gets one sentence with file and line, status 1, and no output") {
+  const BadScene scenes[] = {
+      {"NaN", replaced(kScene, "v 1 1 0", "v nan 1 0"), kMaterials, "scene.obj:4: "},
+      {"zero area", replaced(kScene, "v 1 1 0\nv 0 1 0", "v 2 0 0\nv 3 0 0"), kMaterials,
+       "scene.obj:11: "},
+      {"no Kd", kScene, replaced(kMaterials, "Kd .5 .5 .5\n", ""), "scene.mtl:1: "},
+      {"no light", kScene, replaced(kMaterials, "Ke 1 1 1\n", ""), "scene.obj:"},
+      {"reflectance above 1", kScene, replaced(kMaterials, ".5 .5 .5", "1.5 .5 .5"),
+       "scene.mtl:2: "},
+      {"one patch", replaced(replaced(kScene, "f 5 6 7 8\n", ""), "usemtl wall", "usemtl lamp"),
+       kMaterials, "scene.obj:11: "},
+      {"no such vertex", replaced(kScene, "f 1 2 3 4", "f 1 2 3 99"), kMaterials, "scene.obj:11: "},
+      {"no such file", replaced(kScene, "scene.mtl", "other.mtl"), kMaterials, "scene.obj:1: "},
+      {"unreadable", "this is no scene\n", kMaterials, "scene.obj:1: "},
+  };
+  for (const BadScene& bad : scenes) {
+    CAPTURE(bad.what);
+    const fs::path folder = scratch("bad_scene");
+    host::write_file_atomically((folder / "scene.obj").string(), bad.scene);
+    host::write_file_atomically((folder / "scene.mtl").string(), bad.materials);
+    const Outcome outcome = urad(kernel_solve(folder));
+    CAPTURE(outcome.text);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.text.find(bad.where) != std::string::npos);
+    CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+    CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
+  }
+  CHECK(urad("solve nowhere.obj --method fixed-moment --out -").status == 1);
+}
+
+TEST_CASE("a net file cut short or of a wrong version is named") {
+  const fs::path folder = scratch("bad_net");
+  const std::string good = host::read_file(std::string(URAD_SOURCE_DIR) + "/weights/cube7.json");
+  const std::string cut = (folder / "cut.json").string(), old = (folder / "old.json").string();
+  host::write_file_atomically(cut, good.substr(0, good.size() / 2));
+  host::write_file_atomically(old, replaced(good, "\"version\": ", "\"version\": 9"));
+  for (const std::string& file : {cut, old}) {
+    const Outcome outcome =
+        urad("solve cube7 --method net --net " + file + " --out " + (folder / "b.csv").string());
+    CHECK(outcome.status == 1);
+    CHECK(outcome.text.find(file) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "b.csv"));
+  }
+}
+
+TEST_CASE("an output that cannot be written is named, and nothing is left behind") {
+  const Outcome solve = urad("solve cube7 --method fixed-moment --out /proc/none/b.csv");
+  CHECK(solve.status == 1);
+  CHECK(solve.text.find("/proc/none") != std::string::npos);
+  const Outcome bake = urad("bake cube7 --method fixed-moment -o /proc/none");
+  CHECK(bake.status == 1);
+  CHECK(bake.text.find("/proc/none") != std::string::npos);
+}
+
+TEST_CASE("wrong usage has status 2 and says what would do") {
+  const std::string pairs = std::string(URAD_SOURCE_DIR) + "/tests/vectors/pairs.csv";
+  for (const std::string& arguments : std::vector<std::string>{
+           "", "unknown", "solve cube7", "solve cube7 --method nothing --out -",
+           "solve cube7 --method hemicube:15 --out -", "help nothing",
+           "formfactor --method lambert:0 --in " + pairs + " --out -",
+           "solve cube7 --method net:nothing --out -", "export x.json --bits 12 -o x.h"}) {
+    CAPTURE(arguments);
+    const Outcome outcome = urad(arguments);
+    CAPTURE(outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find("Try: urad help") != std::string::npos);
+  }
+  for (const char* topic : {"", "solve", "bake", "train", "export", "evaluate", "formfactor"}) {
+    CHECK(urad(std::string("help ") + topic).status == 0);
+  }
+}
+
+TEST_CASE("a table of pairs with bad rows finishes, with a status per row, in input order") {
+  const fs::path folder = scratch("pairs");
+  const std::string out = (folder / "f.csv").string();
+  const std::string in = std::string(URAD_SOURCE_DIR) + "/tests/vectors/pairs.csv";
+  REQUIRE(urad("formfactor --method reference --in " + in + " --out " + out).status == 0);
+  const host::CsvTable pairs = host::read_csv(in), results = host::read_csv(out);
+  REQUIRE(results.rows.size() == pairs.rows.size());
+  CHECK(results.header == std::vector<std::string>{"id", "f", "status", "error"});
+  for (std::size_t k = 0; k < pairs.rows.size(); ++k) {
+    const std::string& expected = pairs.rows[k].cells[pairs.column("expected")];
+    CHECK(results.rows[k].cells[0] == pairs.rows[k].cells[pairs.column("id")]);
+    if (expected.rfind("invalid_", 0) == 0) {
+      CHECK(results.rows[k].cells[2] == expected);
+    } else {
+      CHECK(results.rows[k].cells[2] == "ok");
+      const std::size_t digits = expected.size() - 1 - expected.find('.');
+      const double last_digit = std::pow(10.0, -double(std::min<std::size_t>(digits, 12)));
+      CHECK(std::fabs(std::stod(results.rows[k].cells[1]) - std::stod(expected)) <= last_digit);
+    }
+  }
+}
+
+TEST_CASE(
+    "plates with blockers: rays and hybrid near the exact values, reference says what it cannot "
+    "do") {
+  const fs::path folder = scratch("plates");
+  const std::string in = std::string(URAD_SOURCE_DIR) + "/tests/vectors/scenes.csv";
+  const double exact[] = {0.199824895698387, 0.149868671773791, 0.0995062945989848, 0};
+  const struct {
+    const char* method;
+    double bound;
+  } methods[] = {
+      {"rays:256", 3e-3}, {"hybrid:64 --subdivide 4", 1e-2}, {"monte-carlo:200000", 1e-3}};
+  for (const auto& [method, bound] : methods) {
+    CAPTURE(method);
+    const std::string out = (folder / "f.csv").string();
+    REQUIRE(urad("formfactor --scene " + in + " --method " + method + " --out " + out).status == 0);
+    const host::CsvTable results = host::read_csv(out);
+    REQUIRE(results.rows.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k)
+      CHECK(std::fabs(std::stod(results.rows[k].cells[1]) - exact[k]) <= bound);
+    CHECK(std::stod(results.rows[3].cells[1]) == 0);  // fully blocked is exactly 0
+  }
+  REQUIRE(
+      urad("formfactor --scene " + in + " --method reference --out " + (folder / "r.csv").string())
+          .status == 0);
+  const host::CsvTable reference = host::read_csv((folder / "r.csv").string());
+  CHECK(reference.rows[0].cells[2] == "ok");
+  CHECK(reference.rows[1].cells[2] == "unsupported_occluded");
+}
+
+TEST_CASE("solve writes the solution, the rows and the report of the cube") {
+  const fs::path folder = scratch("solve");
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const Outcome outcome =
+      urad("solve cube7 --method net:cube7 --error 0.001 --out " + path("b.csv") + " --rows " +
+           path("rows.csv") + " --report " + path("report.json"));
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  const host::CsvTable b = host::read_csv(path("b.csv")), rows = host::read_csv(path("rows.csv"));
+  CHECK(b.header == std::vector<std::string>{"patch", "B_r", "B_g", "B_b"});
+  REQUIRE(b.rows.size() == 294);
+  REQUIRE(rows.rows.size() == 294);
+  REQUIRE(rows.header.size() == 295);
+  for (const host::CsvRow& row : rows.rows) {
+    double sum = 0;
+    for (std::size_t j = 1; j < row.cells.size(); ++j) sum += std::stod(row.cells[j]);
+    CHECK(std::fabs(sum - 1) <= 0.003);  // before repair
+  }
+  CHECK(host::read_file(path("report.json")).find("\"exact\": true") != std::string::npos);
+}
