@@ -7,6 +7,7 @@ archive=$1 prefix=${2:-}
 allowed='^(mem(cpy|set|move|cmp)'             # emitted by compilers even when freestanding
 allowed+='|__aeabi_(lmul|llsl|llsr|lasr|lcmp|ulcmp|mem(cpy|set|move|clr)[48]?)' # Arm: 64-bit product, shifts, comparison
 allowed+='|__gnu_thumb1_case_(uqi|sqi|uhi|shi|si)'                             # Cortex-M0: switch tables
+allowed+='|__clzsi2'                                                          # leading zeros, where no instruction counts them
 allowed+='|__(mul|ashl|lshr|ashr|cmp|ucmp)di[23]'                              # RISC-V: the same as __aeabi_l*
 allowed+='|__riscv_(save|restore)_[0-9]+'                                      # RISC-V at -Os: register spills
 allowed+='|_GLOBAL_OFFSET_TABLE_)$'                                            # position independent code
