@@ -64,7 +64,8 @@ uint32_t radiosity_error_uq32(const Radiosity& s) noexcept {
   // unshot < 2^48 and bounces < 2^26; once it passes 2^37 its low bits do not matter to a ratio.
   const int drop = unshot >> 37 ? 16 : 0;
   const uint64_t to_come = (((unshot >> drop) * bounces_uq16(s)) >> 16) << drop;
-  return to_come ? exp2_uq(log2_q24(to_come) - log2_q24(reflected + to_come), 32) : 0;
+  const uint64_t safe = to_come + (to_come >> 1);
+  return safe ? exp2_uq(log2_q24(safe) - log2_q24(reflected + to_come), 32) : 0;
 }
 
 bool radiosity_done(const Radiosity& s, uint32_t error_uq32) noexcept {

@@ -9,8 +9,33 @@ namespace urad {
 
 namespace {
 
-/// round(2^32 phi^-d), d = 1 .. 4, phi = 1.16730397826...
-constexpr uint32_t kStep[4] = {3679390609u, 3152041523u, 2700274806u, 2313257605u};
+/// Direction numbers of Sobol's sequence [Joe & Kuo 2008], computed at compile time.
+struct Directions {
+  uint32_t bit[4][16];
+};
+
+constexpr Directions make_directions() {
+  constexpr int degree[4] = {0, 1, 2, 3}, inner[4] = {0, 0, 1, 1};
+  constexpr uint32_t first[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}};
+  Directions d{};
+  for (int k = 0; k < 16; ++k) d.bit[0][k] = uint32_t{1} << (31 - k);
+  for (int n = 1; n < 4; ++n) {
+    const int s = degree[n];
+    for (int k = 0; k < 16; ++k) {
+      if (k < s) {
+        d.bit[n][k] = first[n][k] << (31 - k);
+        continue;
+      }
+      d.bit[n][k] = d.bit[n][k - s] ^ d.bit[n][k - s] >> s;
+      for (int m = 1; m < s; ++m) {
+        if (inner[n] >> (s - 1 - m) & 1) d.bit[n][k] ^= d.bit[n][k - m];
+      }
+    }
+  }
+  return d;
+}
+
+constexpr Directions kDirections = make_directions();  // 256 bytes of ROM
 
 /// x times a length, the sum of two of which stays below 2^62.
 constexpr int64_t part_q31(uint32_t x_uq31, int32_t length) noexcept {
@@ -107,7 +132,8 @@ Sequence::Sequence(uint16_t i, uint16_t j) noexcept {
 }
 
 void Sequence::advance() noexcept {
-  for (int d = 0; d < 4; ++d) at_[d] += kStep[d];
+  const int lowest = top_bit(++count_ & (0u - count_)) & 15;
+  for (int d = 0; d < 4; ++d) at_[d] ^= kDirections.bit[d][lowest];
 }
 
 namespace {

@@ -22,7 +22,7 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept;
 
 /// Fraction of the light exchanged by patches i and j that passes all blockers, UQ16.16: 0 exactly
 /// when every ray is blocked, 65536 when none is. `rays` (1 .. kMaxRays, clamped) segments join
-/// points of a four-dimensional additive sequence (Roberts's R4), moved by an offset that depends
+/// points of Sobol's sequence in four dimensions, moved by an offset that depends
 /// on the pair; the same for (i, j) and (j, i). `weighted` weighs a ray by cos cos / r^2: the
 /// fraction of the form factor, not of the rays. Where patches may touch (rho > 1/16) the sum of
 /// all weights has no bounded variance: its part below the distance sqrt(S/2), S the sum of the two

@@ -146,9 +146,7 @@ void add_chip(const AccuracyResults& r, List* list) {
                    "compared by `./run demo` and by the test firmware_microbit", std::nullopt});
   if (!r.solve_instructions) {
     list->push_back({"the same, Cortex-M0 instructions", "shown",
-                     "not counted in this run: `./run demo`, then `./run accuracy --instructions "
-                     "out/demo/boards/icount.json`",
-                     std::nullopt});
+                     "not counted in this run; `./run accuracy` counts them", std::nullopt});
     return;
   }
   std::string text = fmt::format("{} to 1 %", grouped(std::llround(*r.solve_instructions)));

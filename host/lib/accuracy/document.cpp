@@ -63,12 +63,9 @@ std::string general_nets(const AccuracyResults& results) {
   for (const GeneralTrial& t : results.general) {
     Cells cells{t.origin, number(t.cube7.std), t.cube7.rows ? percent(t.cube7.rows->worst) : "",
                 number(t.cube7.median), number(t.cube7.p99)};
-    for (const auto& [train, held] : {std::pair(t.train, t.held_out)}) {
-      cells.push_back(train ? number(train->median) : "");
-      cells.push_back(held ? number(held->median) : "");
-      cells.push_back(train ? number(train->p99) : "");
-      cells.push_back(held ? number(held->p99) : "");
-    }
+    for (const auto value : {&ErrorRow::median, &ErrorRow::p99})
+      for (const auto* row : {&t.train, &t.held_out})
+        cells.push_back(*row ? number((**row).*value) : "");
     text += line(cells);
   }
   return text;

@@ -35,7 +35,7 @@ std::uint64_t general_seed(std::uint64_t training_seed, PairUse use);
 PolygonPair general_pair(PairFamily family, std::uint64_t seed, std::uint64_t index);
 
 /// Above it a general net hands over to the exact sum.
-inline constexpr double kGeneralNearRho = 0.7;
+inline constexpr double kGeneralNearRho = 0.3;
 
 /// The pair as a sample (weight 1, target against the moment kernel). False when engine or
 /// reference sees no exchange, and for pairs that a general net hands over.
