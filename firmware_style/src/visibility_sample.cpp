@@ -132,7 +132,8 @@ Sequence::Sequence(uint16_t i, uint16_t j) noexcept {
 }
 
 void Sequence::advance() noexcept {
-  const int lowest = top_bit(++count_ & (0u - count_)) & 15;
+  ++count_;
+  const int lowest = top_bit(count_ & (0u - count_)) & 15;
   for (int d = 0; d < 4; ++d) at_[d] ^= kDirections.bit[d][lowest];
 }
 

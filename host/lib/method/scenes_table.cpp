@@ -91,97 +91,112 @@ bool may_block(const Polygon& p, const Polygon& q, const Polygon& blocker) {
   return true;
 }
 
-/// What a method says of one piece of P: exchange with all of Q, or why not.
-struct PieceResult {
+/// What a method says of a scene: exchange of P with all of Q, or why not.
+struct SceneResult {
   double exchange = 0;
   std::string status = "ok";
 };
 
-using PieceMethod = std::function<PieceResult(const OccludedPlates&, const Polygon& piece)>;
+using Pieces = std::vector<Polygon>;
+using SceneMethod = std::function<SceneResult(const OccludedPlates&, const Pieces&)>;
 
-PieceResult by_reference(const OccludedPlates& plates, const Polygon& piece) {
-  PieceResult result;
-  for (const Polygon& q : plates.to) {
-    const bool clear =
-        std::none_of(plates.blockers.begin(), plates.blockers.end(),
-                     [&](const Polygon& blocker) { return may_block(piece, q, blocker); });
-    if (!clear) return {0, "unsupported_occluded"};
-    result.exchange += reference_exchange(piece, q);
+SceneResult by_reference(const OccludedPlates& plates, const Pieces& pieces) {
+  SceneResult result;
+  for (const Polygon& piece : pieces) {
+    for (const Polygon& q : plates.to) {
+      const bool clear =
+          std::none_of(plates.blockers.begin(), plates.blockers.end(),
+                       [&](const Polygon& blocker) { return may_block(piece, q, blocker); });
+      if (!clear) return {0, "unsupported_occluded"};
+      result.exchange += reference_exchange(piece, q);
+    }
   }
   return result;
 }
 
-PieceResult by_monte_carlo(const OccludedPlates& plates, const Polygon& piece, int samples) {
-  PieceResult result;
-  for (const Polygon& q : plates.to) {
-    result.exchange += moments(piece).area * monte_carlo(piece, q, samples, plates.blockers).f;
+SceneResult by_monte_carlo(const OccludedPlates& plates, const Pieces& pieces, int samples) {
+  SceneResult result;
+  for (const Polygon& piece : pieces) {
+    for (const Polygon& q : plates.to) {
+      result.exchange += moments(piece).area * monte_carlo(piece, q, samples, plates.blockers).f;
+    }
   }
   return result;
 }
 
-/// Patch 0 is the piece, 1.. are Q; blockers belong to no surface.
-FixedScene fixed_scene(const OccludedPlates& plates, const Polygon& piece) {
-  std::vector<Polygon> patches{piece};
+/// Pieces first, then Q; blockers belong to no surface. In one scene, so that every piece has a
+/// number of its own and the sampling errors of different pieces are independent.
+FixedScene fixed_scene(const OccludedPlates& plates, const Pieces& pieces) {
+  Pieces patches = pieces;
   patches.insert(patches.end(), plates.to.begin(), plates.to.end());
   return FixedScene::of_polygons(patches, plates.blockers);
 }
 
-PieceResult by_rays(const OccludedPlates& plates, const Polygon& piece, int rays) {
-  PieceResult result;
-  const FixedScene scene = fixed_scene(plates, piece);
+SceneResult by_rays(const OccludedPlates& plates, const Pieces& pieces, int rays) {
+  SceneResult result;
+  const FixedScene scene = fixed_scene(plates, pieces);
   urad_counters counters{};
-  for (std::size_t k = 0; k < plates.to.size(); ++k) {
-    const std::uint32_t seen_uq16 = urad::visible_fraction_uq16(
-        scene.pod(), urad::patch_at(scene.pod(), 0),
-        urad::patch_at(scene.pod(), std::uint16_t(k + 1)), std::uint16_t(rays), true, &counters);
-    result.exchange += seen_uq16 / 65536.0 * reference_exchange(piece, plates.to[k]);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const urad::Patch from = urad::patch_at(scene.pod(), std::uint16_t(i));
+    for (std::size_t k = 0; k < plates.to.size(); ++k) {
+      const urad::Patch to = urad::patch_at(scene.pod(), std::uint16_t(pieces.size() + k));
+      const std::uint32_t seen_uq16 =
+          urad::visible_fraction_uq16(scene.pod(), from, to, std::uint16_t(rays), true, &counters);
+      result.exchange += seen_uq16 / 65536.0 * reference_exchange(pieces[i], plates.to[k]);
+    }
   }
   return result;
 }
 
-PieceResult by_hemicube(const OccludedPlates& plates, const Polygon& piece, const MethodSpec& spec,
+SceneResult by_hemicube(const OccludedPlates& plates, const Pieces& pieces, const MethodSpec& spec,
                         const NetChoice& nets) {
-  const FixedScene scene = fixed_scene(plates, piece);
-  std::vector<std::uint32_t> row(plates.to.size() + 1);
-  EngineSource(scene, spec, nets, {}).row(0, row.data());
-  PieceResult result;
-  for (std::size_t k = 1; k < row.size(); ++k)
-    result.exchange += moments(piece).area * row[k] / 4294967296.0;
+  SceneResult result;
+  const FixedScene scene = fixed_scene(plates, pieces);
+  const EngineSource source(scene, spec, nets, {});
+  std::vector<std::uint32_t> row(pieces.size() + plates.to.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    source.row(std::uint16_t(i), row.data());
+    for (std::size_t k = pieces.size(); k < row.size(); ++k) {
+      result.exchange += moments(pieces[i]).area * row[k] / 4294967296.0;
+    }
+  }
   return result;
 }
 
 /// The hemicube's visible fraction times the exact factor; rays where a receiver covers no cell.
-PieceResult by_hybrid(const OccludedPlates& plates, const Polygon& piece, int resolution) {
-  const FixedScene scene = fixed_scene(plates, piece);
+SceneResult by_hybrid(const OccludedPlates& plates, const Pieces& pieces, int resolution) {
+  SceneResult result;
+  const FixedScene scene = fixed_scene(plates, pieces);
   const EngineVisibility visible(scene, resolution, kRaysForUncovered);
-  PieceResult result;
-  for (std::size_t k = 0; k < plates.to.size(); ++k) {
-    result.exchange +=
-        visible.fraction(0, std::uint16_t(k + 1)) * reference_exchange(piece, plates.to[k]);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t k = 0; k < plates.to.size(); ++k) {
+      result.exchange += visible.fraction(std::uint16_t(i), std::uint16_t(pieces.size() + k)) *
+                         reference_exchange(pieces[i], plates.to[k]);
+    }
   }
   return result;
 }
 
-PieceMethod piece_method(const MethodSpec& spec, const NetChoice& nets) {
+SceneMethod scene_method(const MethodSpec& spec, const NetChoice& nets) {
   if (spec.name == "reference") return by_reference;
   if (spec.name == "monte-carlo") {
     const int n = spec.number(100000, 16, 1'000'000'000);
     return
-        [n](const auto& plates, const Polygon& piece) { return by_monte_carlo(plates, piece, n); };
+        [n](const auto& plates, const Pieces& pieces) { return by_monte_carlo(plates, pieces, n); };
   }
   if (spec.name == "rays") {
     const int n = spec.number(256, 1, urad::kMaxRays);
-    return [n](const auto& plates, const Polygon& piece) { return by_rays(plates, piece, n); };
+    return [n](const auto& plates, const Pieces& pieces) { return by_rays(plates, pieces, n); };
   }
   if (spec.name == "hemicube") {
     spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
-    return [spec, &nets](const auto& plates, const Polygon& piece) {
-      return by_hemicube(plates, piece, spec, nets);
+    return [spec, &nets](const auto& plates, const Pieces& pieces) {
+      return by_hemicube(plates, pieces, spec, nets);
     };
   }
   if (spec.name == "hybrid") {
     const int n = spec.number(64, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution);
-    return [n](const auto& plates, const Polygon& piece) { return by_hybrid(plates, piece, n); };
+    return [n](const auto& plates, const Pieces& pieces) { return by_hybrid(plates, pieces, n); };
   }
   throw UsageError(fmt::format(
       "--method {}: not for scenes with blockers; those are reference, monte-carlo:N, hemicube:R, "
@@ -190,7 +205,7 @@ PieceMethod piece_method(const MethodSpec& spec, const NetChoice& nets) {
 }
 
 /// P in about n x n pieces.
-std::vector<Polygon> pieces(const Polygon& polygon, int n) {
+Pieces pieces_of(const Polygon& polygon, int n) {
   if (n == 1) return {polygon};
   std::size_t total = 0;
   Piece piece = cut_face({polygon, 0, {1, 1}, "--subdivide"}, {n, 0}, &total);
@@ -202,27 +217,29 @@ std::vector<Polygon> pieces(const Polygon& polygon, int n) {
   return patches;
 }
 
-PieceResult whole(const OccludedPlates& plates, const PieceMethod& method, int subdivide) {
+SceneResult whole(const OccludedPlates& plates, const SceneMethod& method, int subdivide) {
   if (plates.status != "ok") return {0, plates.status};
-  double exchange = 0, area = 0;
+  Pieces pieces;
+  double area = 0;
   for (const Polygon& p : plates.from) {
-    for (const Polygon& piece : pieces(p, subdivide)) {
-      const PieceResult part = method(plates, piece);
-      if (part.status != "ok") return part;
-      exchange += part.exchange;
+    for (const Polygon& piece : pieces_of(p, subdivide)) {
+      pieces.push_back(piece);
       area += moments(piece).area;
     }
   }
-  return {std::clamp(exchange / area, 0.0, 1.0), "ok"};
+  if (pieces.size() + plates.to.size() > 65535) return {0, "unsupported_too_many_pieces"};
+  SceneResult result = method(plates, pieces);
+  result.exchange = std::clamp(result.exchange / area, 0.0, 1.0);
+  return result;
 }
 
 }  // namespace
 
 std::string scenes_table(const CsvTable& rows, const MethodSpec& spec, const NetChoice& nets,
                          int subdivide, int threads, bool quiet) {
-  const PieceMethod method = piece_method(spec, nets);
+  const SceneMethod method = scene_method(spec, nets);
   const std::vector<OccludedPlates> scenes = read_scenes(rows);
-  std::vector<PieceResult> results(scenes.size());
+  std::vector<SceneResult> results(scenes.size());
   Progress progress("scenes", scenes.size(), quiet);
   parallel_for(scenes.size(), threads, [&](std::size_t k) {
     results[k] = whole(scenes[k], method, subdivide);
