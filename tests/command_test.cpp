@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -79,6 +80,11 @@ TEST_CASE("a bad scene gets one sentence with file and line, status 1, and no ou
       {"one patch", replaced(replaced(kScene, "f 5 6 7 8\n", ""), "usemtl wall", "usemtl lamp"),
        kMaterials, "scene.obj:11: "},
       {"no such vertex", replaced(kScene, "f 1 2 3 4", "f 1 2 3 99"), kMaterials, "scene.obj:11: "},
+      {"index too large", replaced(kScene, "f 1 2 3 4", "f 4294967297 2 3 4"), kMaterials,
+       "scene.obj:11: "},
+      {"index not whole", replaced(kScene, "f 1 2 3 4", "f 1.5 2 3 4"), kMaterials,
+       "scene.obj:11: "},
+      {"too bright", kScene, replaced(kMaterials, "Ke 1 1 1", "Ke 1e308 1 1"), "scene.mtl:5: "},
       {"no such file", replaced(kScene, "scene.mtl", "other.mtl"), kMaterials, "scene.obj:1: "},
       {"unreadable", "this is no scene\n", kMaterials, "scene.obj:1: "},
   };

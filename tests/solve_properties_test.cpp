@@ -125,3 +125,32 @@ TEST_CASE(
 TEST_CASE("the Cornell box by hybrid: within 3 % of exact factors with traced visibility") {
   CHECK(solved(host::load_scene("cornell"), "hybrid:64", 1e-4).rms <= 0.03);
 }
+
+TEST_CASE("walls of a single patch keep their size: the unit cube's two factors") {
+  host::MeshOptions whole;
+  whole.subdivide = 1;
+  const host::Scene scene = host::load_scene("cube7", whole);
+  REQUIRE(scene.patches.size() == 6);
+  const host::EngineRows f = host::engine_rows(host::FixedScene(scene),
+                                               host::parse_method("fixed-lambert:3"), kNets, {}, 0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double facing =
+          glm::dot(scene.patches[i].moments.normal, scene.patches[j].moments.normal);
+      const double exact = i == j ? 0 : facing < -0.5 ? 0.199824895698387 : 0.200043776075403;
+      CHECK(std::fabs(f(i, j) - exact) <= 1e-4);
+    }
+  }
+}
+
+TEST_CASE("a lamp that holds all the light of a scene fits the engine's powers") {
+  host::MeshOptions whole;
+  whole.subdivide = 1;
+  for (const double rho : {0.0, 0.5, 0.9}) {
+    host::Scene scene = host::load_scene("cube7", whole);
+    for (host::Material& material : scene.materials) {
+      if (material.exitance == Vec3(0)) material.reflectance = Vec3(rho);
+    }
+    CHECK(solved(scene, "net", 1e-3).solution.status == URAD_OK);
+  }
+}

@@ -32,6 +32,12 @@ struct Options {
 
 std::string command_of(const Options& options) {
   std::string text = fmt::format("urad bake {} --method {}", options.scene.name, options.methods);
+  if (options.scene.mesh.subdivide > 0)
+    text += fmt::format(" --subdivide {}", options.scene.mesh.subdivide);
+  if (options.scene.mesh.patch_size > 0)
+    text += fmt::format(" --patch-size {}", options.scene.mesh.patch_size);
+  if (options.error != Options{}.error) text += fmt::format(" --error {}", options.error);
+  if (options.size != Options{}.size) text += fmt::format(" --size {}", options.size);
   if (!options.net.empty()) text += " --net " + options.net;
   return text + " -o " + options.folder;
 }

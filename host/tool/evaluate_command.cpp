@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "network/evaluate.hpp"
 #include "network/net_json.hpp"
-#include "scene/builtin.hpp"
+#include "scene_option.hpp"
 
 namespace tool {
 
@@ -84,13 +84,7 @@ void add_evaluate(CLI::App& app, const Common& common) {
   command->add_option("nets", options->nets, "net.json ...")->required();
   command->add_option("--scene", options->scene,
                       "Scene to measure on; default: the first net's own, if it has one");
-  auto* subdivide =
-      command
-          ->add_option("--subdivide", options->mesh.subdivide, "Cut every face into N x N patches")
-          ->check(CLI::PositiveNumber);
-  command->add_option("--patch-size", options->mesh.patch_size, "Longest patch edge")
-      ->check(CLI::PositiveNumber)
-      ->excludes(subdivide);
+  add_mesh_options(command, &options->mesh);
   command->add_option("--bits", options->bits, "Which of the quantised nets")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();

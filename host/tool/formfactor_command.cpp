@@ -21,13 +21,13 @@ void run(const Options& options, const Common& common) {
   const std::vector<host::MethodSpec> methods = host::parse_methods(options.methods);
   std::string table;
   if (!options.in.empty()) {
-    table = host::pairs_table(host::read_csv(options.in), methods, nets.choice(), common.threads,
-                              common.quiet);
+    table = host::pairs_table(host::read_csv(options.in, host::CsvRows::ragged), methods,
+                              nets.choice(), common.threads, common.quiet);
   } else {
     if (methods.size() != 1)
       throw CLI::ValidationError("--method", "one method at a time with --scene");
-    table = host::scenes_table(host::read_csv(options.scene), methods[0], nets.choice(),
-                               options.subdivide, common.threads, common.quiet);
+    table = host::scenes_table(host::read_csv(options.scene, host::CsvRows::ragged), methods[0],
+                               nets.choice(), options.subdivide, common.threads, common.quiet);
   }
   host::write_file_atomically(options.out, table);
 }
@@ -42,7 +42,8 @@ void add_formfactor(CLI::App& app, const Common& common) {
       ->add_option("--method", options->methods,
                    "M[,M...]: reference, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, moment, "
                    "fixed-kernel, "
-                   "fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with --scene also hybrid[:R], rays:N")
+                   "fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with --scene also "
+                   "hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
   sources->add_option("--in", options->in, "CSV with columns id, p, q (\"-\": standard input)");

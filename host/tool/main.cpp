@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <new>
 
 #include "base/error.hpp"
@@ -63,6 +64,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr,
                "urad: out of memory: a smaller scene (--subdivide, --patch-size) or fewer threads "
                "would do\n");
+    return kFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "urad: {}\n", error.what());
     return kFailed;
   }
   return 0;

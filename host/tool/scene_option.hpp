@@ -7,6 +7,16 @@
 
 namespace tool {
 
+/// --subdivide or --patch-size.
+inline void add_mesh_options(CLI::App* command, host::MeshOptions* mesh) {
+  auto* subdivide =
+      command->add_option("--subdivide", mesh->subdivide, "Cut every face into N x N patches")
+          ->check(CLI::Range(1, 255));
+  command->add_option("--patch-size", mesh->patch_size, "Longest patch edge, in the file's unit")
+      ->check(CLI::PositiveNumber)
+      ->excludes(subdivide);
+}
+
 struct SceneOption {
   std::string name;
   host::MeshOptions mesh;
@@ -16,12 +26,7 @@ struct SceneOption {
         ->add_option("SCENE,--scene", name,
                      "An OBJ with its MTL, a patch CSV, or a built-in name: cube7, cornell")
         ->required();
-    auto* subdivide =
-        command->add_option("--subdivide", mesh.subdivide, "Cut every quad into N x N patches")
-            ->check(CLI::Range(1, 256));
-    command->add_option("--patch-size", mesh.patch_size, "Longest patch edge, in the file's unit")
-        ->check(CLI::PositiveNumber)
-        ->excludes(subdivide);
+    add_mesh_options(command, &mesh);
   }
   host::Scene load() const { return host::load_scene(name, mesh); }
 };

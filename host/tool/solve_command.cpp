@@ -81,8 +81,15 @@ void run(const Options& options, const Common& common) {
   host::SolveGoal goal;
   goal.shots = options.shots;
   goal.error = options.error;
+  if (!(goal.error > 0)) throw host::UsageError("--error should be a number above 0");
   const host::MethodRun result = solver.run(spec, nets.choice(), goal);
   refuse(options.scene.name, result.solution.status);
+  if (!goal.shots && !(result.solution.error <= goal.error)) {
+    throw host::Error(fmt::format(
+        "{}: {} shots brought B to {:.3g} % rms only, and more would not help; a larger --error, a "
+        "lower reflectance or --shots N would do",
+        options.scene.name, result.solution.shots, 100 * result.solution.error));
+  }
   if (!options.rows.empty()) {
     host::write_file_atomically(options.rows, rows_table(scene, [&](std::size_t i, std::size_t j) {
                                   return result.rows(i, j);

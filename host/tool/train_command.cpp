@@ -5,7 +5,7 @@
 #include "base/progress.hpp"
 #include "command.hpp"
 #include "network/train_net.hpp"
-#include "scene/builtin.hpp"
+#include "scene_option.hpp"
 
 namespace tool {
 
@@ -64,13 +64,7 @@ void add_train(CLI::App& app, const Common& common) {
   subject->add_option("--scene", options->scene,
                       "For this scene: a built-in name, an OBJ or a patch CSV");
   subject->require_option(1);
-  auto* subdivide =
-      command
-          ->add_option("--subdivide", options->mesh.subdivide, "Cut every face into N x N patches")
-          ->check(CLI::PositiveNumber);
-  command->add_option("--patch-size", options->mesh.patch_size, "Longest patch edge")
-      ->check(CLI::PositiveNumber)
-      ->excludes(subdivide);
+  add_mesh_options(command, &options->mesh);
   command
       ->add_option("--hidden", options->hidden,
                    "Hidden neurons; default 4 for a scene, 8 for general")

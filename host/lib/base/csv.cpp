@@ -99,7 +99,7 @@ std::size_t CsvTable::column(std::string_view title) const {
   throw Error(name + ":1: no column '" + std::string(title) + "'; the header is '" + titles + "'");
 }
 
-CsvTable parse_csv(std::string_view text, const std::string& name) {
+CsvTable parse_csv(std::string_view text, const std::string& name, CsvRows rows) {
   CsvTable table;
   table.name = name;
   Reader reader(text, name);
@@ -110,7 +110,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
     if (std::find(table.header.begin(), title, *title) != title)
       throw Error(place(name, row.line) + "the column '" + *title + "' is there twice");
   while (reader.next(&row)) {
-    if (row.cells.size() != table.header.size())
+    if (rows == CsvRows::strict && row.cells.size() != table.header.size())
       throw Error(place(name, row.line) + std::to_string(row.cells.size()) +
                   " cells; the header has " + std::to_string(table.header.size()));
     table.rows.push_back(row);
@@ -118,7 +118,9 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   return table;
 }
 
-CsvTable read_csv(const std::string& path) { return parse_csv(read_file(path), path); }
+CsvTable read_csv(const std::string& path, CsvRows rows) {
+  return parse_csv(read_file(path), path, rows);
+}
 
 std::string csv_cell(std::string_view text) {
   const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos &&

@@ -29,10 +29,13 @@ struct CsvTable {
 /// Splits `text`: commas, double quotes ("" inside is one quote), LF or CRLF, an optional UTF-8
 /// mark. Blank lines are skipped. Throws Error for a missing header, a title twice, a wrong cell
 /// count or an open quote.
-CsvTable parse_csv(std::string_view text, const std::string& name);
+/// Ragged: rows of another cell count are kept as they are, for tables of which a bad row must not
+/// stop the run.
+enum class CsvRows { strict, ragged };
+CsvTable parse_csv(std::string_view text, const std::string& name, CsvRows rows = CsvRows::strict);
 
 /// parse_csv of a file; "-" is standard input.
-CsvTable read_csv(const std::string& path);
+CsvTable read_csv(const std::string& path, CsvRows rows = CsvRows::strict);
 
 /// One cell, quoted only where commas, quotes, line ends or outer blanks ask for it.
 std::string csv_cell(std::string_view text);

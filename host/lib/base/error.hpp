@@ -4,7 +4,8 @@
 
 namespace host {
 
-/// Thrown for anything the user can mend. what() names the file, the line, the value and what would do.
+/// Thrown for anything the user can mend. what() names the file, the line, the value and what would
+/// do.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

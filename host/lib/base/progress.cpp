@@ -9,7 +9,10 @@
 namespace host {
 
 Progress::Progress(std::string what, std::size_t total, bool quiet)
-    : what_(std::move(what)), total_(std::max<std::size_t>(total, 1)), quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+    : what_(std::move(what)),
+      total_(std::max<std::size_t>(total, 1)),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
   if (!quiet_ && terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);

@@ -8,8 +8,8 @@
 
 namespace host {
 
-/// A bar with an estimate of what is left when stderr is a terminal, else one line per 10 %; nothing when quiet.
-/// add() may be called from several threads.
+/// A bar with an estimate of what is left when stderr is a terminal, else one line per 10 %;
+/// nothing when quiet. add() may be called from several threads.
 class Progress {
  public:
   Progress(std::string what, std::size_t total, bool quiet);

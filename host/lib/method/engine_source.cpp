@@ -105,8 +105,10 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
     : state_(std::make_unique<State>()) {
   state_->scene = &scene.pod();
   if (spec.name == "fixed-kernel") {
+    spec.expect_no_argument();
     state_->use_pairs(urad::Kernel::centre, nullptr, options);
   } else if (spec.name == "fixed-moment") {
+    spec.expect_no_argument();
     state_->use_pairs(urad::Kernel::moment, nullptr, options);
   } else if (spec.name == "fixed-lambert") {
     state_->use_pairs(urad::Kernel::moment, nullptr, options);

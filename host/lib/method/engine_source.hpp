@@ -21,8 +21,8 @@ bool is_engine_method(const MethodSpec& spec);
 
 /// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive
 /// it.
-///   fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME]    pairs, times the visible fraction by rays
-///   hemicube:R                                item buffer, turned (none in a convex scene)
+///   fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME]    pairs, times the visible fraction
+///   by rays hemicube:R                                item buffer, turned (none in a convex scene)
 ///   hybrid[:R]                                occluded: visible fraction of the hemicube times the
 ///   network's factor;
 ///                                             convex: the network for pairs with less than 3

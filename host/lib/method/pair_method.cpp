@@ -39,11 +39,15 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
       if (vertices > URAD_POLYGON_MAX_VERTICES)
         return PairResult{{}, "unsupported_too_many_vertices"};
     }
-    const FixedScene scene = FixedScene::of_polygons({p, q}, {});
-    const EngineSource source(scene, spec, nets, {});
-    std::array<std::uint32_t, 2> row{};
-    source.row(0, row.data());
-    return PairResult{{row[1] / 4294967296.0}};
+    try {
+      const FixedScene scene = FixedScene::of_polygons({p, q}, {});
+      const EngineSource source(scene, spec, nets, {});
+      std::array<std::uint32_t, 2> row{};
+      source.row(0, row.data());
+      return PairResult{{row[1] / 4294967296.0}};
+    } catch (const Error&) {  // sizes that no common unit can hold
+      return PairResult{{}, "unsupported_range"};
+    }
   };
   return {run, false};
 }
@@ -52,9 +56,21 @@ using Maker = std::function<FreePairMethod(const MethodSpec&)>;
 
 const std::map<std::string, Maker>& host_methods() {
   static const std::map<std::string, Maker> makers = {
-      {"reference", [](const MethodSpec&) { return exact(reference_estimate, true); }},
-      {"kernel", [](const MethodSpec&) { return exact(centre_kernel_estimate, false); }},
-      {"moment", [](const MethodSpec&) { return exact(moment_kernel_estimate, false); }},
+      {"reference",
+       [](const MethodSpec& spec) {
+         spec.expect_no_argument();
+         return exact(reference_estimate, true);
+       }},
+      {"kernel",
+       [](const MethodSpec& spec) {
+         spec.expect_no_argument();
+         return exact(centre_kernel_estimate, false);
+       }},
+      {"moment",
+       [](const MethodSpec& spec) {
+         spec.expect_no_argument();
+         return exact(moment_kernel_estimate, false);
+       }},
       {"lambert",
        [](const MethodSpec& spec) {
          const int n = spec.number(1, 1, kMostPoints);

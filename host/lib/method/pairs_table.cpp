@@ -19,16 +19,21 @@ PairResult refused(PolygonStatus status) {
           std::string(name(status))};
 }
 
-Row evaluate(const std::string& p_text, const std::string& q_text,
+Row evaluate(const CsvRow& row, std::size_t columns, std::size_t p_column, std::size_t q_column,
              const std::vector<FreePairMethod>& methods) {
-  Row row;
-  const ParsedPolygon p = parse_polygon(p_text), q = parse_polygon(q_text);
-  const PolygonStatus status = p.status != PolygonStatus::ok ? p.status : q.status;
-  for (const FreePairMethod& method : methods) {
-    row.results.push_back(status == PolygonStatus::ok ? method.run(p.polygon, q.polygon)
-                                                      : refused(status));
+  ParsedPolygon p, q;
+  PolygonStatus status = PolygonStatus::invalid_syntax;
+  if (row.cells.size() == columns) {
+    p = parse_polygon(row.cells[p_column]);
+    q = parse_polygon(row.cells[q_column]);
+    status = p.status != PolygonStatus::ok ? p.status : q.status;
   }
-  return row;
+  Row result;
+  for (const FreePairMethod& method : methods) {
+    result.results.push_back(status == PolygonStatus::ok ? method.run(p.polygon, q.polygon)
+                                                         : refused(status));
+  }
+  return result;
 }
 
 }  // namespace
@@ -49,13 +54,14 @@ std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& sp
   std::vector<Row> rows(pairs.rows.size());
   Progress progress("form factors", rows.size(), quiet);
   parallel_for(rows.size(), threads, [&](std::size_t k) {
-    rows[k] = evaluate(pairs.rows[k].cells[p], pairs.rows[k].cells[q], methods);
+    rows[k] = evaluate(pairs.rows[k], pairs.header.size(), p, q, methods);
     progress.add();
   });
 
   std::string text = csv_line(header);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    std::vector<std::string> cells{pairs.rows[k].cells[id]};
+    const CsvRow& row = pairs.rows[k];
+    std::vector<std::string> cells{id < row.cells.size() ? row.cells[id] : ""};
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const PairResult& result = rows[k].results[m];
       const bool ok = result.status == "ok";

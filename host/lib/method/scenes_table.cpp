@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -30,16 +31,18 @@ struct OccludedPlates {
 };
 
 void add_row(OccludedPlates* plates, const std::string& role, const std::string& text) {
-  const ParsedPolygon parsed = parse_polygon(text);
   if (plates->status != "ok") return;
+  const ParsedPolygon parsed = parse_polygon(text);
   if (parsed.status != PolygonStatus::ok) {
     plates->status = name(parsed.status);
   } else if (role == "P") {
     plates->from.push_back(parsed.polygon);
   } else if (role == "Q") {
     plates->to.push_back(parsed.polygon);
-  } else {
+  } else if (role == "B") {
     plates->blockers.push_back(parsed.polygon);
+  } else {
+    plates->status = "invalid_role";
   }
 }
 
@@ -49,14 +52,16 @@ std::vector<OccludedPlates> read_scenes(const CsvTable& rows) {
   std::vector<OccludedPlates> scenes;
   std::map<std::string, std::size_t> known;
   for (const CsvRow& row : rows.rows) {
-    const auto [at, added] = known.try_emplace(row.cells[scene], scenes.size());
-    if (added) scenes.push_back({row.cells[scene], {}, {}, {}});
-    const std::string& letter = row.cells[role];
-    if (letter != "P" && letter != "Q" && letter != "B") {
-      throw Error(
-          fmt::format("{}:{}: role \"{}\" should be P, Q or B", rows.name, row.line, letter));
+    const bool whole = row.cells.size() == rows.header.size();
+    const std::string title = scene < row.cells.size() ? row.cells[scene] : "";
+    const auto [at, added] = known.try_emplace(title, scenes.size());
+    if (added) scenes.push_back({title, {}, {}, {}});
+    OccludedPlates& plates = scenes[at->second];
+    if (whole) {
+      add_row(&plates, row.cells[role], row.cells[polygon]);
+    } else if (plates.status == "ok") {
+      plates.status = "invalid_syntax";
     }
-    add_row(&scenes[at->second], letter, row.cells[polygon]);
   }
   for (OccludedPlates& plates : scenes) {
     if (plates.status == "ok" && plates.from.empty()) plates.status = "invalid_no_p";
@@ -124,12 +129,33 @@ SceneResult by_monte_carlo(const OccludedPlates& plates, const Pieces& pieces, i
   return result;
 }
 
+/// The parts of the blockers inside the box of the patches, the only ones that can stand between
+/// them: a blocker of any size then leaves the scene unit to the patches.
+std::vector<Polygon> between(const Pieces& patches, const std::vector<Polygon>& blockers) {
+  Vec3 low = patches.front().outer.front(), high = low;
+  for (const Polygon& patch : patches) {
+    for (const Vec3& x : patch.outer) low = glm::min(low, x), high = glm::max(high, x);
+  }
+  const double margin = 0.01 * glm::length(high - low);
+  std::vector<Polygon> parts;
+  for (Polygon part : blockers) {
+    for (int axis = 0; axis < 3 && !part.outer.empty(); ++axis) {
+      Vec3 inward(0);
+      inward[axis] = 1;
+      part = clip(part, low - margin, inward);
+      if (!part.outer.empty()) part = clip(part, high + margin, -inward);
+    }
+    if (!part.outer.empty() && moments(part).area > 0) parts.push_back(part);
+  }
+  return parts;
+}
+
 /// Pieces first, then Q; blockers belong to no surface. In one scene, so that every piece has a
 /// number of its own and the sampling errors of different pieces are independent.
 FixedScene fixed_scene(const OccludedPlates& plates, const Pieces& pieces) {
   Pieces patches = pieces;
   patches.insert(patches.end(), plates.to.begin(), plates.to.end());
-  return FixedScene::of_polygons(patches, plates.blockers);
+  return FixedScene::of_polygons(patches, between(patches, plates.blockers));
 }
 
 SceneResult by_rays(const OccludedPlates& plates, const Pieces& pieces, int rays) {
@@ -228,9 +254,15 @@ SceneResult whole(const OccludedPlates& plates, const SceneMethod& method, int s
     }
   }
   if (pieces.size() + plates.to.size() > 65535) return {0, "unsupported_too_many_pieces"};
-  SceneResult result = method(plates, pieces);
-  result.exchange = std::clamp(result.exchange / area, 0.0, 1.0);
-  return result;
+  try {
+    SceneResult result = method(plates, pieces);
+    result.exchange = std::clamp(result.exchange / area, 0.0, 1.0);
+    if (!std::isfinite(result.exchange)) return {0, "unsupported_range"};
+    return result;
+  } catch (
+      const Error&) {  // more vertices than the engine takes, or sizes that no common unit can hold
+    return {0, "unsupported_polygon"};
+  }
 }
 
 }  // namespace

@@ -20,6 +20,11 @@ int MethodSpec::number(int otherwise, int least, int most) const {
   return value;
 }
 
+void MethodSpec::expect_no_argument() const {
+  if (!argument.empty())
+    throw UsageError(fmt::format("--method {}: {} takes no value", text(), name));
+}
+
 MethodSpec parse_method(const std::string& text) {
   const std::size_t colon = text.find(':');
   MethodSpec spec{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};

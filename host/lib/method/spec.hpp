@@ -13,6 +13,8 @@ struct MethodSpec {
   /// The argument as a whole number in [least, most], or `otherwise` when there is none. Throws
   /// Error.
   int number(int otherwise, int least, int most) const;
+  /// For methods that take none. Throws UsageError when there is one.
+  void expect_no_argument() const;
 };
 
 MethodSpec parse_method(const std::string& text);

@@ -228,6 +228,8 @@ NetFile net_from_json(const std::string& text, const std::string& where) {
   } catch (const Json::parse_error& error) {
     throw Error(fmt::format("{}: not JSON from byte {} of {} on: cut short or damaged", where,
                             error.byte, text.size()));
+  } catch (const Json::out_of_range&) {
+    throw Error(fmt::format("{}: holds a number too large to be read: damaged", where));
   }
   const Reader reader(json, where + ":");
   if (reader.text("format") != "urad-net")

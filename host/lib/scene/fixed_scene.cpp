@@ -116,8 +116,9 @@ urad_grid grid_of(const Grid& grid, const Moments& patch, const Units& units) {
   const Vec3 centre = glm::round(units.place(grid.origin + 0.5 * span));
   urad_grid fixed{};
   fixed.origin = point(centre - 0.5 * (double(grid.count_u) * u + double(grid.count_v) * v));
-  fixed.step_u = point(u);
-  fixed.step_v = point(v);
+  fixed.step_u = {to_int(u.x), to_int(u.y),
+                  to_int(u.z)};  // a step may span the box, twice a coordinate's limit
+  fixed.step_v = {to_int(v.x), to_int(v.y), to_int(v.z)};
   fixed.count_u = uint16_t(grid.count_u);
   fixed.count_v = uint16_t(grid.count_v);
   fixed.shape = shape_of(patch, units);
@@ -173,8 +174,9 @@ FixedScene::FixedScene(const Scene& scene) : tables_(std::make_shared<Tables>())
   const double gain =
       std::min(1 / std::max(1 - reflectance, 1 / kMostReflections), kMostReflections);
   if (brightest > 0) t.exitance_unit = 1 / fit(brightest * gain, kPowerMax);
-  const double power = largest_channel(emitted) / t.exitance_unit * gain;
-  const double power_units = power > 0 ? fit(power, kPowerMax) : 1;
+  // The engine keeps the sum of a patch's channels below the limit.
+  const double power = (emitted.x + emitted.y + emitted.z) / t.exitance_unit * gain;
+  const double power_units = power > 0 ? fit(power, 0.999 * kPowerMax) : 1;
 
   for (const Material& material : scene.materials) {
     urad_material fixed{};

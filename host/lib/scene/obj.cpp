@@ -54,9 +54,10 @@ Material checked_material(const std::string& name, const LibraryMaterial& from) 
       throw Error(
           fmt::format("{}:{}: material '{}' reflects {} of the light; Kd must lie between 0 and 1",
                       file, lines.kd_line, name, lines.kd[channel]));
-    if (lines.ke[channel] < 0)
-      throw Error(fmt::format("{}:{}: material '{}' emits {}; Ke must not be negative", file,
-                              lines.ke_line, name, lines.ke[channel]));
+    if (!emission_in_range(lines.ke[channel]))
+      throw Error(
+          fmt::format("{}:{}: material '{}' emits {}; Ke must be 0, or between 1e-30 and 1e30",
+                      file, lines.ke_line, name, lines.ke[channel]));
   }
   return {name, lines.kd, lines.ke};
 }

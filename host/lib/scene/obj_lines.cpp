@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "base/error.hpp"
@@ -53,6 +54,25 @@ void each_line(std::string_view text, const Fn& fn) {
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
   throw Error(fmt::format("{}:{}: {}", file, line, what));
+}
+
+/// A corner of a face: whole numbers, not 0, with slashes between; tinyobjloader would let others
+/// wrap or lose a part.
+void check_corner(std::string_view corner, const std::string& file, std::size_t line) {
+  bool good = true;
+  for (std::size_t at = 0; good && at <= corner.size();) {
+    const std::size_t slash = std::min(corner.find('/', at), corner.size());
+    const std::string_view number = corner.substr(at, slash - at);
+    std::int32_t value = 0;
+    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), value);
+    const bool read = status == std::errc() && end == number.data() + number.size() && value != 0;
+    good = read || (number.empty() && at > 0);
+    at = slash + 1;
+  }
+  if (!good)
+    fail(file, line,
+         fmt::format("a face corner is '{}'; it should be a vertex number such as 7, 7/1 or 7//2",
+                     corner));
 }
 
 Vec3 three_numbers(const std::vector<std::string_view>& words, const std::string& file,
@@ -144,6 +164,7 @@ ObjLines index_obj(std::string_view text, const std::string& file) {
       if (words.size() < 4) fail(file, line, "a face needs at least 3 vertices");
       if (material.empty())
         fail(file, line, "a face without material: put 'usemtl NAME' before it");
+      for (std::size_t k = 1; k < words.size(); ++k) check_corner(words[k], file, line);
       found.faces.push_back({line, material, counts});
     } else if (words[0] == "usemtl") {
       material = rest_of(content, words[0]);

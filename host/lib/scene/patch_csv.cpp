@@ -52,9 +52,9 @@ Material material_of(const CsvTable& table, const CsvRow& row, const Columns& co
     if (reflectance < 0 || reflectance > 1)
       throw Error(fmt::format("{}:{}: {} is {}; a reflectance lies between 0 and 1", table.name,
                               row.line, table.header[columns.reflectance[c]], reflectance));
-    if (exitance < 0)
-      throw Error(fmt::format("{}:{}: {} is {}; an emission is not negative", table.name, row.line,
-                              table.header[columns.exitance[c]], exitance));
+    if (!emission_in_range(exitance))
+      throw Error(fmt::format("{}:{}: {} is {}; an emission is 0, or between 1e-30 and 1e30",
+                              table.name, row.line, table.header[columns.exitance[c]], exitance));
     material.reflectance[int(c)] = reflectance;
     material.exitance[int(c)] = exitance;
   }

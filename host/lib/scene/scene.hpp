@@ -14,6 +14,11 @@ struct Material {
   Vec3 exitance{0};     ///< emitted, in the file's unit
 };
 
+/// Emission of a channel that every later sum and unit can hold.
+inline bool emission_in_range(double exitance) {
+  return exitance == 0 || (exitance >= 1e-30 && exitance <= 1e30);
+}
+
 /// Patch (u, v) of a grid is the parallelogram at origin + u step_u + v step_v; number first_patch
 /// + v * count_u + u.
 struct Grid {

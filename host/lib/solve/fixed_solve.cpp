@@ -10,7 +10,7 @@ namespace host {
 
 namespace {
 
-constexpr int kMostShotsPerPatch = 64;  // far beyond what reflectances below 0.99 need
+constexpr int kMostShotsPerPatch = 512;  // far beyond what reflectances below 0.99 need
 
 /// The engine's rows as a source: a load per factor.
 urad_status rows_fill(void* context, std::uint16_t shooter, std::uint16_t, std::uint16_t first,
@@ -78,6 +78,11 @@ FixedSolution fixed_solve(const Scene& scene, const FixedScene& fixed, const Eng
   urad::Status status =
       urad::radiosity_init(&state, &pod, source, goal.overshoot ? URAD_OVERSHOOT : 0, run,
                            memory.data(), solution.ram_bytes);
+
+  if (status != urad::Status::ok) {  // nothing was written to the state
+    solution.status = urad_status(status);
+    return solution;
+  }
 
   const int look = std::max(1, int(pod.patch_count) / 32);
   const int most = goal.shots.value_or(kMostShotsPerPatch * int(pod.patch_count));

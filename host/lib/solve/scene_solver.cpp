@@ -135,9 +135,7 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   const Eigen::MatrixXd f = matrix(run.rows);
   run.factors = factor_errors(scene_, f, exact().form_factors);
   EngineRows repaired_rows = run.rows;
-  // The rows of a hemicube, alone or in a hybrid, sum to 1 by themselves and are not reciprocal
-  // anyway.
-  if (scene_.closed && spec.name != "hemicube" && spec.name != "hybrid") {
+  if (scene_.closed && spec.name != "hemicube") {  // a hemicube's rows sum to 1 by themselves
     run.scale = symmetric_scale(scene_, f);
     fixed_.set_scale(run.scale);
     repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, {}, threads_)
