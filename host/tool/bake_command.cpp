@@ -148,7 +148,7 @@ void run(const Options& options, const Common& common) {
   host::SolveGoal goal;
   goal.error = options.error;
   const std::string name = host::c_identifier(scene.name);
-  std::string light;
+  std::string light, scene_arrays;
   for (const host::MethodSpec& spec : host::parse_methods(options.methods)) {
     if (!common.quiet) fmt::print(stderr, "{}: {}\n", options.scene.name, spec.text());
     if (spec.name == "exact") {
@@ -170,10 +170,10 @@ void run(const Options& options, const Common& common) {
     }
     if (light.empty())
       light = host::light_to_c(solver.fixed(), run.solution.raw, name, report.command);
-    // The scene goes out with the repair that belongs to the network's or kernel's factors.
-    if (!fs::exists(folder / "scene.h") || spec.name == "net") {
-      host::write_file_atomically((folder / "scene.h").string(),
-                                  host::scene_to_c(solver.fixed(), name, report.command));
+    // The scene goes out with the repair that belongs to the network's factors, or else to those of
+    // the first method.
+    if (scene_arrays.empty() || spec.name == "net") {
+      scene_arrays = host::scene_to_c(solver.fixed(), name, report.command);
     }
     report.methods.push_back(std::move(result));
   }
@@ -190,6 +190,7 @@ void run(const Options& options, const Common& common) {
         {file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
   }
   if (!light.empty()) {
+    host::write_file_atomically((folder / "scene.h").string(), scene_arrays);
     host::write_file_atomically((folder / "light.h").string(), light);
     report.files.push_back({"scene.h, light.h", "the scene and its light as C arrays"});
   }
