@@ -35,7 +35,7 @@ struct OwnNet {
   OwnNet(const OwnNet&) = delete;
 
   urad_net net;
-  alignas(4) std::vector<std::uint8_t> hidden_weight;
+  std::vector<std::uint8_t> hidden_weight;
   std::vector<std::int32_t> hidden_bias;
   std::vector<urad_rescale> hidden_rescale;
   std::vector<std::int16_t> output_weight, skip_weight;
