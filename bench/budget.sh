@@ -57,7 +57,7 @@ flash=$(arm-none-eabi-size -A "$work/microbit/solve" | awk '$1 ~ /^\.(text|rodat
   cat <<'END'
 # Budget
 
-Written by `./run targets` (bench/budget.sh). Goals are those of DESIGN.md, section 7. Instructions are counted one by one
+Written by `./run targets` (bench/budget.sh). Goals are what the project set out to reach. Instructions are counted one by one
 in an emulator (bench/icount), not timed; the scene is the report's cube, 294 patches, with its own network.
 
 ## Flash of the engine, Cortex-M0, -Os
