@@ -15,8 +15,8 @@ struct RandomRoom {
 };
 
 /// Sides 0.5 to 2 and 3 to 9 cuts a side, the box up to 3 sides from the origin; the last face is
-/// the lamp.
-inline RandomRoom random_room(std::mt19937& random, double scale) {
+/// the lamp. `finer`: every patch is cut into finer x finer.
+inline RandomRoom random_room(std::mt19937& random, double scale, int finer = 1) {
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * (double(random()) + 0.5) / 0x1p32;
   };
@@ -35,7 +35,7 @@ inline RandomRoom random_room(std::mt19937& random, double scale) {
   }
   const char* const faces[6] = {"1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4", "5 7 8 6", "1 2 4 3"};
   for (int f = 0; f < 6; ++f) {
-    const int u = 3 + int(random() % 7), v = 3 + int(random() % 7);
+    const int u = finer * (3 + int(random() % 7)), v = finer * (3 + int(random() % 7));
     std::snprintf(line, sizeof line, "# grid %d %d\nusemtl %s\nf %s\n", u, v,
                   f < 5 ? "wall" : "lamp", faces[f]);
     room.obj += line;

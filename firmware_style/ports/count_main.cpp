@@ -1,7 +1,9 @@
-// count LABELS -- runs pieces of the engine between region marks, for the instruction counter of bench/icount.
+// count LABELS -- runs pieces of the engine between region marks, for the instruction counter of
+// bench/icount.
 //
-// LABELS receives one line per region, in the order in which the counter writes its counts. A piece that depends on its
-// input is run on many inputs: every patch of the other surfaces, seen from the middle of the first surface.
+// LABELS receives one line per region, in the order in which the counter writes its counts. A piece
+// that depends on its input is run on many inputs: every patch of the other surfaces, seen from the
+// middle of the first surface.
 #include URAD_SCENE_HEADER
 #include URAD_NET_HEADER
 #include "port.hpp"
@@ -20,7 +22,6 @@ const urad_scene& kScene = URAD_SCENE_NAME;
 constexpr uint16_t kLongestRun = 64;
 constexpr int kShots = 8;
 constexpr int kMostResolution = 64;
-constexpr uint32_t kNear_rho_uq16 = 1365;
 template <int R>
 constexpr urad::HemicubeCells<R> kCells = urad::make_hemicube_table<R>();
 
@@ -60,13 +61,16 @@ void pairs(port::Writer& labels, uint16_t shooter, uint16_t receiver) {
   const bool far = g_counters.far_pairs != before.far_pairs;
   measure(labels, "pair_centre", exchange(urad::Kernel::centre, nullptr));
   measure(labels, "pair_moment", exchange(urad::Kernel::moment, nullptr));
-  measure(labels, clipped ? "pair_network_clipped" : far ? "pair_network_far" : "pair_network",
+  measure(labels,
+          clipped ? "pair_network_clipped"
+          : far   ? "pair_network_far"
+                  : "pair_network",
           exchange(urad::Kernel::moment, &URAD_NET_NAME));
 }
 
 bool shots(port::Writer& labels, const char* label, const urad_source& source, int count) {
-  bool good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, kLongestRun, g_memory, sizeof g_memory) ==
-              urad::Status::ok;
+  bool good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, kLongestRun,
+                                   g_memory, sizeof g_memory) == urad::Status::ok;
   for (int k = 0; good && k < count; ++k)
     measure(labels, label, [&] { good = urad::radiosity_step(&g_radiosity) == urad::Status::ok; });
   return good;
@@ -76,26 +80,28 @@ bool shots(port::Writer& labels, const char* label, const urad_source& source, i
 bool solve(port::Writer& labels, const char* label, const urad_source& source) {
   bool good = false;
   measure(labels, label, [&] {
-    good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, kLongestRun, g_memory,
-                                sizeof g_memory) == urad::Status::ok;
+    good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, kLongestRun,
+                                g_memory, sizeof g_memory) == urad::Status::ok;
     while (good && !urad::radiosity_done(g_radiosity, URAD_PERCENT))
       good = urad::radiosity_step(&g_radiosity) == urad::Status::ok;
   });
   return good;
 }
 
-/// Only on a convex scene: its hemicube needs no item buffer, which would not fit beside the light in 16 KB.
+/// Only on a convex scene: its hemicube needs no item buffer, which would not fit beside the light
+/// in 16 KB.
 template <int R>
 bool hemicube_shots(port::Writer& labels, const char* alone, const char* with_network) {
   if (!(kScene.flags & URAD_SCENE_CONVEX)) return true;
   urad::HemicubeSource hemicube;
-  if (urad::hemicube_init(&hemicube, &kScene, urad::hemicube_table(kCells<R>), 0, urad::hemicube_turned,
-                          g_hemicube_memory, sizeof g_hemicube_memory, &g_counters) != urad::Status::ok ||
+  if (urad::hemicube_init(&hemicube, &kScene, urad::hemicube_table(kCells<R>), 0,
+                          urad::hemicube_turned, g_hemicube_memory, sizeof g_hemicube_memory,
+                          &g_counters) != urad::Status::ok ||
       !shots(labels, alone, {urad::hemicube_fill, &hemicube}, kShots))
     return false;
   urad::HybridSource hybrid;
-  return urad::hybrid_init(&hybrid, &hemicube, urad::Kernel::moment, &URAD_NET_NAME, 1, kNear_rho_uq16) ==
-             urad::Status::ok &&
+  return urad::hybrid_init(&hybrid, &hemicube, urad::Kernel::moment, &URAD_NET_NAME, 1,
+                           urad::kThreePatches_uq16) == urad::Status::ok &&
          shots(labels, with_network, {urad::hybrid_fill, &hybrid}, kShots);
 }
 
@@ -110,23 +116,26 @@ int run() {
   const uint16_t shooter = uint16_t(kScene.surface[0].patch_count / 2);
 
   measure(labels, "empty", [] {});
-  for (uint16_t receiver = 0; receiver < kScene.patch_count; ++receiver) pairs(labels, shooter, receiver);
+  for (uint16_t receiver = 0; receiver < kScene.patch_count; ++receiver)
+    pairs(labels, shooter, receiver);
 
   urad::PairSource network = {&kScene, &URAD_NET_NAME, urad::Kernel::moment, 0, 0, &g_counters};
   urad::PairSource kernel = {&kScene, nullptr, urad::Kernel::moment, 0, 0, &g_counters};
   for (uint16_t s = 1; s < kScene.surface_count; ++s) {
     const urad_surface& surface = kScene.surface[s];
     const uint16_t count = surface.patch_count < kLongestRun ? surface.patch_count : kLongestRun;
-    measure(labels, "run_network",
-            [&] { g_sink = urad::pair_fill(&network, shooter, s, surface.first_patch, count, g_factors); });
+    measure(labels, "run_network", [&] {
+      g_sink = urad::pair_fill(&network, shooter, s, surface.first_patch, count, g_factors);
+    });
   }
 
-  const bool good = shots(labels, "shot_solver_alone", {even_fill, nullptr}, kShots) &&
-                    shots(labels, "shot_moment", {urad::pair_fill, &kernel}, kShots) &&
-                    shots(labels, "shot_network", {urad::pair_fill, &network}, kShots) &&
-                    solve(labels, "solve_network", {urad::pair_fill, &network}) &&
-                    hemicube_shots<32>(labels, "shot_hemicube_32", "shot_hemicube_32_near_network") &&
-                    hemicube_shots<64>(labels, "shot_hemicube_64", "shot_hemicube_64_near_network");
+  const bool good =
+      shots(labels, "shot_solver_alone", {even_fill, nullptr}, kShots) &&
+      shots(labels, "shot_moment", {urad::pair_fill, &kernel}, kShots) &&
+      shots(labels, "shot_network", {urad::pair_fill, &network}, kShots) &&
+      solve(labels, "solve_network", {urad::pair_fill, &network}) &&
+      hemicube_shots<32>(labels, "shot_hemicube_32", "shot_hemicube_32_near_network") &&
+      hemicube_shots<64>(labels, "shot_hemicube_64", "shot_hemicube_64_near_network");
   labels.flush();
   port::close(file);
   return good && !labels.failed() ? 0 : 1;

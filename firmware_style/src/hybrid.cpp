@@ -1,5 +1,6 @@
 #include "urad/hybrid.hpp"
 
+#include "urad/log2.hpp"
 #include "urad/ratio.hpp"
 #include "urad/visibility.hpp"
 
@@ -36,6 +37,15 @@ uint32_t factor_uq32(const HybridSource& source, const Patch& i, const Patch& j,
   return times(f_uq32, visible_uq16(source, i, j, counters), 16);
 }
 
+/// A factor from the centre of the shooter, made the mean over the shooter to second order.
+uint32_t over_shooter_uq32(uint32_t f_uq32, const Patch& from, const Patch& to) noexcept {
+  PairKernel kernel;
+  if (f_uq32 == 0 || !pair_kernel(*from.shape, from.centroid, *to.shape, to.centroid, &kernel)) {
+    return f_uq32;
+  }
+  return times(f_uq32, exp2_uq(log2_extent_q24(kernel), 24), 24);
+}
+
 /// Calls visit(patch) for every patch that may exchange light with `from`.
 template <class Visit>
 void for_each_receiver(const urad_scene& scene, const Patch& from, Visit visit) noexcept {
@@ -50,33 +60,33 @@ void for_each_receiver(const urad_scene& scene, const Patch& from, Visit visit) 
   }
 }
 
-/// Replaces the near pairs of a hemicube row and scales the rest, so that the row keeps its sum:
-/// what the near pairs gain the far ones lose. The sum is what a hemicube has right (it is 1 less
-/// the sky, whatever the receivers); the share of the near pairs is what it has wrong. Near pairs
-/// that would take more than the whole row leave nothing to the far ones.
-void correct_near(const HybridSource& source, const Patch& from) noexcept {
+/// Replaces the near pairs of a hemicube row, turns the far ones from factors of the shooter's
+/// centre into means over the shooter, and scales these so that the row keeps its sum. The sum is
+/// what a hemicube has right (it is 1 less the sky, whatever the receivers); the shares are what
+/// it has wrong. Near pairs that would take more than the whole row leave nothing to the far ones.
+void correct_row(const HybridSource& source, const Patch& from) noexcept {
   const HemicubeSource& hemicube = *source.hemicube;
   uint32_t* row = hemicube.visible_uq32;
-  uint64_t far_sum = 0, near_was = 0, near_is = 0;
+  uint64_t seen = 0, near = 0, far = 0;
   urad_counters* counters = hemicube.counters;
   const urad_counters before = *counters;
   for_each_receiver(*hemicube.scene, from, [&](const Patch& to) {
     uint32_t& f_uq32 = row[to.index];
-    if (!closer_than(from, to, source.near_rho_uq16)) {
-      far_sum += f_uq32;
-      return;
+    seen += f_uq32;
+    if (closer_than(from, to, source.near_rho_uq16)) {
+      f_uq32 = factor_uq32(source, from, to, counters);
+      near += f_uq32;
+    } else {
+      f_uq32 = over_shooter_uq32(f_uq32, from, to);
+      far += f_uq32;
     }
-    near_was += f_uq32;
-    f_uq32 = factor_uq32(source, from, to, counters);
-    near_is += f_uq32;
   });
   // Runs count pairs, not this walk.
   counters->evaluated = before.evaluated;
   counters->skipped_facing = before.skipped_facing;
-  if (far_sum == 0) return;
+  if (far == 0) return;
 
-  const uint64_t sum = far_sum + near_was, left = sum > near_is ? sum - near_is : 0;
-  const int64_t scale_uq30 = ratio_q(int64_t(left), int64_t(far_sum), 30);
+  const int64_t scale_uq30 = ratio_q(int64_t(seen > near ? seen - near : 0), int64_t(far), 30);
   const uint32_t limited_uq30 = scale_uq30 > 0xFFFFFFFF ? 0xFFFFFFFFu : uint32_t(scale_uq30);
   for_each_receiver(*hemicube.scene, from, [&](const Patch& to) {
     if (!closer_than(from, to, source.near_rho_uq16))
@@ -115,7 +125,7 @@ urad_status hybrid_fill(void* hybrid_source, uint16_t shooter, uint16_t surface,
     source->shooter = -1;
     const Status status = hemicube_render(&hemicube, shooter);
     if (status != Status::ok) return urad_status(status);
-    if (source->near_rho_uq16 != 0) correct_near(*source, from);
+    if (source->near_rho_uq16 != 0) correct_row(*source, from);
     source->shooter = shooter;
   }
 

@@ -150,6 +150,10 @@ bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_s
   return true;
 }
 
+int32_t log2_extent_q24(const PairKernel& kernel) noexcept {
+  return bend_q24(t2_q22(kernel.side[0]));
+}
+
 void pair_inputs(const PairKernel& kernel, Pair* pair) noexcept {
   const PairSide *first = &kernel.side[0], *second = &kernel.side[1];
   const Vec15 n_0 = unit_q15(first->shape->normal_q30), n_1 = unit_q15(second->shape->normal_q30);

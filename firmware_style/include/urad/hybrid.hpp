@@ -12,16 +12,21 @@
 
 namespace urad {
 
+/// rho of two equal squares whose centres are three sides apart, UQ16.16.
+inline constexpr uint32_t kThreePatches_uq16 = 65536 / 27;
+
 /// A source (source.h). With near_rho_uq16 = 0 every pair is done as above. With near_rho_uq16 > 0
-/// only pairs with rho = (tr M_i + tr M_j) / R^2 above it are, all others keep the hemicube's
-/// factor, scaled by one number per row so that the row still sums to what the hemicube saw: for a
-/// closed scene 1 to the rounding of each factor, for an open one 1 less what escapes.
+/// only pairs with rho = (tr M_i + tr M_j) / R^2 above it are. All others keep the hemicube's
+/// factor, which is that of the shooter's centre, times exp(T2) of the shooter (pair.hpp), which
+/// makes it the mean over the shooter to second order; then one number per row brings the row back
+/// to the sum that the hemicube saw: for a closed scene 1 to the rounding of each factor, for an
+/// open one 1 less what escapes.
 struct HybridSource {
   HemicubeSource* hemicube;  ///< with hemicube_coverage unless the scene is convex
   const urad_net* net;       ///< null: kernel alone
   Kernel kernel;
   uint16_t rays;           ///< 1 .. 1024, for receivers that cover no cell
-  uint32_t near_rho_uq16;  ///< 0: all pairs; 1365 = 65536/48: centres of equal squares four apart
+  uint32_t near_rho_uq16;  ///< 0: all pairs; kThreePatches_uq16: centres closer than three patches
   int32_t shooter;         ///< whose finished row stands in hemicube->visible_uq32; -1: nobody's
 };
 

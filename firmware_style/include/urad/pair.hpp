@@ -55,6 +55,10 @@ struct PairKernel {
 bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_shape& j,
                  const urad_point& centroid_j, PairKernel* kernel) noexcept;
 
+/// log2 of what the extent of side 0 (patch i) makes of the factor from its centroid, Q7.24,
+/// below 2.17: the half of the bend that an eye at the centroid cannot see.
+int32_t log2_extent_q24(const PairKernel& kernel) noexcept;
+
 /// The network's inputs and gate of the same pair. Cost: 60 products of 32 bits, 3 log2, 7 exp2.
 void pair_inputs(const PairKernel& kernel, Pair* pair) noexcept;
 

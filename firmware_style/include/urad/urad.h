@@ -127,8 +127,8 @@ size_t urad_hybrid_source_bytes(void);
  *                  The hybrid uses its memory from now on; the urad_source is not kept.
  *   net            may be null: the kernel alone
  *   rays           1 .. URAD_RAYS_MAX, for receivers that cover no cell
- *   near_rho_uq16  0: all pairs. Else only pairs whose (tr M_i + tr M_j) / R^2 is above it; 1365 is
- *                  four patches from centre to centre, for equal squares. */
+ *   near_rho_uq16  0: all pairs. Else only pairs whose (tr M_i + tr M_j) / R^2 is above it; 2427 is
+ *                  three patches from centre to centre, for equal squares. */
 urad_status urad_hybrid_source_init(urad_source* source, const urad_source* hemicube,
                                     unsigned kernel, const urad_net* net, uint16_t rays,
                                     uint32_t near_rho_uq16, void* memory, size_t bytes);

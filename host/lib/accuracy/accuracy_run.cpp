@@ -64,7 +64,7 @@ void try_general(const GeneralNet& net, const SceneDataset& dataset, SceneSolver
     const ErrorRow* row = net.file ? net.file->error(part) : nullptr;
     if (row) (part[0] == 't' ? trial.train : trial.held_out) = *row;
   }
-  trial.near_hybrid = light_by_near_hybrid(cube7, *net.pod, kNearHemicube, near_rho_uq16(4));
+  trial.near_hybrid = light_by_near_hybrid(cube7, *net.pod, kNearHemicube);
   results->general.push_back(trial);
 }
 
@@ -148,10 +148,7 @@ AccuracyResults run_accuracy(const AccuracyRequest& request) {
     results.cube7.push_back(try_scene_net(cube7, scene_net(request, cube_scene, seed)));
     const QuantisedNet& net = results.cube7.back().net.quantised16;
     results.chip.push_back(solve_like_a_chip(cube7, net));
-    results.near_4.push_back(
-        light_by_near_hybrid(cube7, net.pod(), kNearHemicube, near_rho_uq16(4)));
-    results.near_3.push_back(
-        light_by_near_hybrid(cube7, net.pod(), kNearHemicube, near_rho_uq16(3)));
+    results.near_hybrid.push_back(light_by_near_hybrid(cube7, net.pod(), kNearHemicube));
     progress.add();
   }
 

@@ -55,9 +55,9 @@ struct AccuracyResults {
   ScaleCheck scales;
   std::vector<OccludedCheck> squares, l_room;
   std::vector<SceneNetTrial> cube7;
-  std::vector<ChipSolve> chip;         ///< by seed
-  std::vector<double> near_4, near_3;  ///< by seed: light of cube7 by hemicube:32 and its net for
-                                       ///< centres closer than 4, 3 patches
+  std::vector<ChipSolve> chip;      ///< by seed
+  std::vector<double> near_hybrid;  ///< by seed: light of cube7 by hemicube:32 and its net for
+                                    ///< pairs closer than 3 patches
   std::vector<CornellTrial> cornell;
   double cornell_general = 0;  ///< the same light by the first general net
   std::vector<GeneralTrial> general;

@@ -27,7 +27,7 @@ double std_of(const NetFile& net, const char* part) {
 /// A turned hemicube over a convex scene with all its memory, and a hybrid on top.
 class NearHybrid {
  public:
-  NearHybrid(const urad_scene& scene, const urad_net& net, int resolution, std::uint32_t near_rho) {
+  NearHybrid(const urad_scene& scene, const urad_net& net, int resolution) {
     const std::size_t quarter = std::size_t(resolution / 2) * std::size_t(resolution / 2);
     std::vector<double> scratch(2 * quarter);
     top_.resize(quarter), side_.resize(quarter);
@@ -37,8 +37,8 @@ class NearHybrid {
     const urad::HemicubeTable table{std::uint16_t(resolution), top_.data(), side_.data()};
     if (urad::hemicube_init(&hemicube_, &scene, table, 0, urad::hemicube_turned, memory_.data(),
                             4 * memory_.size(), &counters_) != urad::Status::ok ||
-        urad::hybrid_init(&hybrid_, &hemicube_, urad::Kernel::moment, &net, 1, near_rho) !=
-            urad::Status::ok)
+        urad::hybrid_init(&hybrid_, &hemicube_, urad::Kernel::moment, &net, 1,
+                          urad::kThreePatches_uq16) != urad::Status::ok)
       throw Error("a hemicube without item buffer needs a convex scene");
   }
   urad_source source() { return {urad::hybrid_fill, &hybrid_}; }
@@ -139,17 +139,12 @@ HemicubeTrial try_hemicube(SceneSolver& solver, int resolution, int threads) {
   return trial;
 }
 
-double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution,
-                            std::uint32_t near_rho_uq16) {
+double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution) {
   const Scene& scene = solver.scene();
   const FixedScene fixed(scene);
-  NearHybrid hybrid(fixed.pod(), net, resolution, near_rho_uq16);
+  NearHybrid hybrid(fixed.pod(), net, resolution);
   const EngineRows rows = rows_of(fixed.pod(), hybrid.source());
   return fixed_solve(scene, fixed, rows, solver.exact().radiosity, converged(scene)).error;
-}
-
-std::uint32_t near_rho_uq16(double distance) {
-  return std::uint32_t(std::lround(65536 / (3 * distance * distance)));
 }
 
 }  // namespace host

@@ -42,12 +42,8 @@ struct HemicubeTrial {
 };
 HemicubeTrial try_hemicube(SceneSolver& solver, int resolution, int threads);
 
-/// Light by a hemicube whose factors of near pairs, rho > near_rho_uq16 / 65536, are the network's:
-/// relative rms of the converged B. For convex scenes.
-double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution,
-                            std::uint32_t near_rho_uq16);
-
-/// rho of two parallel-sided squares of side 1 whose centres are `distance` apart, UQ16.16.
-std::uint32_t near_rho_uq16(double distance);
+/// Light by a hemicube whose factors of pairs closer than three patches are the network's: relative
+/// rms of the converged B. For convex scenes.
+double light_by_near_hybrid(SceneSolver& solver, const urad_net& net, int resolution);
 
 }  // namespace host

@@ -20,8 +20,6 @@ namespace host {
 namespace {
 
 constexpr int kDefaultHemicube = 64;
-constexpr std::uint32_t kNearRho_uq16 =
-    1365;  // three patches between them: centres four apart, for equal squares
 
 constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert",
                                        "net",          "hemicube",     "hybrid"};
@@ -88,7 +86,7 @@ struct EngineSource::State {
     const bool convex = scene->flags & URAD_SCENE_CONVEX;
     if (urad::hybrid_init(&hybrid, &hemicube.source, urad::Kernel::moment, net,
                           std::uint16_t(options.rays),
-                          convex ? kNearRho_uq16 : 0) != urad::Status::ok) {
+                          convex ? urad::kThreePatches_uq16 : 0) != urad::Status::ok) {
       throw Error("hybrid: the engine refused the hemicube");
     }
     source = {urad::hybrid_fill, &hybrid};

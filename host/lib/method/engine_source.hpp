@@ -21,12 +21,13 @@ bool is_engine_method(const MethodSpec& spec);
 
 /// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive
 /// it.
-///   fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME]    pairs, times the visible fraction
-///   by rays hemicube:R                                item buffer, turned (none in a convex scene)
-///   hybrid[:R]                                occluded: visible fraction of the hemicube times the
-///   network's factor;
-///                                             convex: the network for pairs with less than 3
-///                                             patches between them, else the hemicube's
+///   fixed-kernel, fixed-moment,      pairs, times the visible fraction by rays
+///   fixed-lambert:N, net[:NAME]
+///   hemicube:R                       turned; without item buffer in a convex scene
+///   hybrid[:R]                       occluded: visible fraction of the hemicube times the
+///   network's
+///                                    factor; convex: the network for pairs closer than three
+///                                    patches, else the hemicube's
 class EngineSource {
  public:
   /// Throws Error for an unknown method or a value out of range.
