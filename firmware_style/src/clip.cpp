@@ -132,6 +132,13 @@ int32_t ratio(int64_t numerator, uint64_t denominator, int fraction_bits) noexce
 
 }  // namespace
 
+PatchPlane plane_of(const Patch& patch) noexcept {
+  const urad_surface& surface = *patch.surface;
+  if (surface.grid) return {surface.grid->origin, surface.grid->shape.normal_q30};
+  if (!(surface.flags & URAD_SURFACE_PLANAR)) return {patch.centroid, patch.shape->normal_q30};
+  return {surface.polygon[0].centroid, surface.polygon[0].shape.normal_q30};
+}
+
 Side side_of_plane(const urad_scene& scene, const Patch& patch, const urad_point& on,
                    const urad_point& normal_q30) noexcept {
   SideCount count;
@@ -154,6 +161,17 @@ Side side_of_plane(const urad_scene&, const urad_surface& surface, const urad_po
     count.add(plane_distance(normal_q30, on, at));
   }
   return count.side();
+}
+
+Side side_of_run(const urad_scene& scene, const Patch& shooter,
+                 const urad_surface& surface) noexcept {
+  const PatchPlane ahead = plane_of(shooter);
+  const Side receivers = side_of_plane(scene, surface, ahead.on, ahead.normal_q30);
+  if (receivers == Side::behind || !(surface.flags & URAD_SURFACE_PLANAR))
+    return receivers == Side::behind ? receivers : Side::both;
+  const PatchPlane behind = plane_of(patch_at(scene, surface.first_patch));
+  const Side back = side_of_plane(scene, shooter, behind.on, behind.normal_q30);
+  return back == Side::front ? receivers : back;
 }
 
 bool clipped_shape(const urad_scene& scene, const Patch& patch, const urad_point& on,

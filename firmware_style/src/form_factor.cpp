@@ -18,13 +18,13 @@ struct Cut {
 
 /// False when nothing of `patch` lies in front of the plane. `cut` is filled only where a cut was
 /// needed.
-bool cut_to_front(const urad_scene& scene, const Patch& patch, const Patch& plane,
+bool cut_to_front(const urad_scene& scene, const Patch& patch, const PatchPlane& plane,
                   Cut* cut) noexcept {
-  const Side side = side_of_plane(scene, patch, plane.centroid, plane.shape->normal_q30);
+  const Side side = side_of_plane(scene, patch, plane.on, plane.normal_q30);
   cut->clipped = side == Side::both;
   if (side == Side::behind) return false;
-  return side == Side::front || clipped_shape(scene, patch, plane.centroid, plane.shape->normal_q30,
-                                              &cut->shape, &cut->centroid);
+  return side == Side::front ||
+         clipped_shape(scene, patch, plane.on, plane.normal_q30, &cut->shape, &cut->centroid);
 }
 
 int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
@@ -61,7 +61,9 @@ struct Cuts {
 
 bool clipped_kernel(const urad_scene& scene, const Patch& i, const Patch& j, Cuts* cuts,
                     PairKernel* kernel, int32_t* limit_q24, bool* clipped) noexcept {
-  if (!cut_to_front(scene, i, j, &cuts->i) || !cut_to_front(scene, j, i, &cuts->j)) return false;
+  if (!cut_to_front(scene, i, plane_of(j), &cuts->i) ||
+      !cut_to_front(scene, j, plane_of(i), &cuts->j))
+    return false;
   const urad_shape& shape_i = cuts->i.clipped ? cuts->i.shape : *i.shape;
   const urad_shape& shape_j = cuts->j.clipped ? cuts->j.shape : *j.shape;
   *clipped = cuts->i.clipped || cuts->j.clipped;

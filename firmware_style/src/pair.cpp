@@ -1,18 +1,10 @@
 #include "urad/pair.hpp"
 
-#include "urad/log2.hpp"
 #include "urad/vec.hpp"
 
 namespace urad {
 
 namespace {
-
-constexpr double log2(double x) {
-  return table::ln(x) / table::kLn2;
-}  // compile time only, 1 <= x <= 2
-constexpr int32_t kLog2Pi_q24 = int32_t((1 + log2(3.14159265358979323846 / 2)) * 16777216 + 0.5);
-constexpr int32_t kLog2Log2E_q24 = int32_t(log2(1 / table::kLn2) * 16777216 + 0.5);
-constexpr uint32_t kSizeLimit_uq22 = uint32_t{8} << 22;
 
 struct Vec15 {
   int32_t x, y, z;

@@ -7,16 +7,6 @@ namespace urad {
 
 namespace {
 
-/// What one look at two surfaces tells of all pairs of the run.
-Side facing(const urad_scene& scene, const Patch& shooter, const urad_surface& surface) noexcept {
-  const Side receivers = side_of_plane(scene, surface, shooter.centroid, shooter.shape->normal_q30);
-  if (receivers == Side::behind || !(surface.flags & URAD_SURFACE_PLANAR))
-    return receivers == Side::behind ? receivers : Side::both;
-  const Patch receiver = patch_at(scene, surface.first_patch);
-  const Side back = side_of_plane(scene, shooter, receiver.centroid, receiver.shape->normal_q30);
-  return back == Side::front ? receivers : back;
-}
-
 urad_status no_light(uint32_t* f_uq32, uint16_t count) noexcept {
   for (uint16_t k = 0; k < count; ++k) f_uq32[k] = 0;
   return URAD_OK;
@@ -47,7 +37,7 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
     source.counters->skipped_same += uint32_t(count - holds_shooter);
     return no_light(f_uq32, count);
   }
-  const Side side = same ? Side::both : facing(scene, from, to);
+  const Side side = same ? Side::both : side_of_run(scene, from, to);
   if (side == Side::behind && !(source.skips_off & skip_off_facing)) {
     source.counters->skipped_facing += count;
     return no_light(f_uq32, count);

@@ -1,6 +1,7 @@
 #include "urad/visibility.hpp"
 
 #include "urad/log2.hpp"
+#include "urad/pair.hpp"
 #include "urad/ratio.hpp"
 #include "urad/vec.hpp"
 #include "visibility_sample.hpp"
@@ -13,7 +14,6 @@ constexpr int32_t kOutline = 2;  // scene units by which a ray may miss and stil
 constexpr int32_t kOutlineMax = 1 << 28;
 constexpr uint32_t kTouching_uq16 = 4096;  // rho above which patches may touch
 constexpr int kFactorTries = 8;  // rays by the cosine law per ray asked for, where they do
-constexpr int32_t kLog2Pi_q24 = 27707319;
 
 constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a < b ? b : a; }

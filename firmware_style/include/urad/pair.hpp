@@ -9,11 +9,17 @@
 // patches are put into an order that depends on their invariants alone, so that (i, j) and (j, i)
 // give the same bits.
 #pragma once
+#include "urad/log2.hpp"
 #include "urad/patch.hpp"
 
 namespace urad {
 
 inline constexpr int kPairInputs = 14;
+inline constexpr int32_t kLog2Pi_q24 =
+    int32_t((1 + table::ln(3.14159265358979323846 / 2) / table::kLn2) * 16777216 + 0.5);
+inline constexpr int32_t kLog2Log2E_q24 =
+    int32_t(table::ln(1 / table::kLn2) / table::kLn2 * 16777216 + 0.5);
+inline constexpr uint32_t kSizeLimit_uq22 = uint32_t{8} << 22;  ///< s and slopes of a pair end here
 
 /// Network inputs, all Q0.15. First = the patch that comes first in the canonical order (larger
 /// area, then cosine, ...):

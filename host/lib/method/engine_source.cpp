@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "lanes/lane_rows.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
@@ -132,6 +133,9 @@ EngineSource::EngineSource(EngineSource&&) noexcept = default;
 
 urad_source EngineSource::source() const { return state_->source; }
 const urad_counters& EngineSource::counters() const { return state_->counters; }
+const urad::PairSource* EngineSource::pairs() const {
+  return state_->source.fill == urad::pair_fill ? &state_->pairs : nullptr;
+}
 std::size_t EngineSource::ram_bytes() const { return state_->ram; }
 
 void EngineSource::row(std::uint16_t shooter, std::uint32_t* f_uq32) const {
@@ -181,6 +185,17 @@ EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const Ne
   EngineRows rows;
   rows.patches = scene.pod().patch_count;
   rows.f_uq32.resize(rows.patches * rows.patches);
+  const auto since = [](std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const EngineSource first(scene, spec, nets, options);
+  rows.ram_bytes = first.ram_bytes();
+  if (const urad::PairSource* pairs = first.pairs(); pairs && has_lanes(*pairs)) {
+    const auto start = std::chrono::steady_clock::now();
+    lane_rows(*pairs, threads, rows.f_uq32, &rows.counters);
+    rows.seconds = since(start) * double(thread_count(threads));
+    return rows;
+  }
   std::mutex sum;
   const std::size_t workers = std::min(thread_count(threads), rows.patches);
   parallel_for(workers, threads, [&](std::size_t worker) {
@@ -191,8 +206,7 @@ EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const Ne
     }
     const std::lock_guard<std::mutex> guard(sum);
     add(&rows.counters, source.counters());
-    rows.ram_bytes = source.ram_bytes();
-    rows.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rows.seconds += since(start);
   });
   return rows;
 }

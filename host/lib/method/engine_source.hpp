@@ -7,6 +7,7 @@
 #include "method/nets.hpp"
 #include "method/spec.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/form_factor.hpp"
 #include "urad/source.h"
 
 namespace host {
@@ -38,6 +39,8 @@ class EngineSource {
 
   urad_source source() const;
   const urad_counters& counters() const;
+  /// The engine's own source, where it goes pair by pair; else null.
+  const urad::PairSource* pairs() const;
   /// Memory the source itself needs on a chip, without the solver's.
   std::size_t ram_bytes() const;
   /// Row of factors of one shooter. Throws Error when the engine refuses.
@@ -75,6 +78,7 @@ struct EngineRows {
   }
 };
 
+/// Pairs of convex scenes go through SIMD lanes (lanes/lane_rows.hpp) with the same bits.
 EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets,
                        const EngineOptions& options, int threads);
 

@@ -1,0 +1,126 @@
+#include "lanes/lane_rows.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "base/parallel.hpp"
+#include "lanes/pair_lanes.hpp"
+#include "urad/clip.hpp"
+#include "urad/lambert.hpp"
+
+namespace host {
+
+namespace {
+
+/// What one thread works with.
+struct Worker {
+  const urad::PairSource& pairs;
+  const PatchLanes& patches;
+  std::span<std::uint32_t> f_uq32;
+  LaneFactors lanes{};
+  urad_counters counters{};  // of unordered pairs
+
+  const urad_scene& scene() const { return *pairs.scene; }
+
+  std::uint32_t& factor(std::uint16_t i, std::uint16_t j) const {
+    return f_uq32[std::size_t{i} * scene().patch_count + j];
+  }
+
+  void store(std::uint16_t i, std::uint16_t j, std::int32_t log2_g_q24) const {
+    if (log2_g_q24 == urad::kNoExchange) return;
+    const auto of = [&](PatchLanes::Row row, std::uint16_t patch) {
+      return patches.row(row)[patch];
+    };
+    log2_g_q24 += of(PatchLanes::log2_scale, i) + of(PatchLanes::log2_scale, j);
+    factor(i, j) = urad::form_factor_uq32(log2_g_q24, of(PatchLanes::log2_area, i));
+    factor(j, i) = urad::form_factor_uq32(log2_g_q24, of(PatchLanes::log2_area, j));
+  }
+
+  void one_by_one(const urad::Patch& i, std::uint16_t first, std::uint16_t count) {
+    urad::Patch j = urad::patch_at(scene(), first);
+    for (std::uint16_t k = 0; k < count; ++k) {
+      if (k) urad::patch_advance(&j);
+      store(i.index, j.index,
+            urad::exchange_log2_q24(scene(), i, j, pairs.kernel, pairs.net, 0, &counters));
+    }
+  }
+
+  void in_lanes(const urad::Patch& i, std::uint16_t first, std::uint16_t count) {
+    lane_factors(patches, i.index, first, count, pairs.kernel, pairs.net, &lanes);
+    const std::uint32_t far = pairs.net ? pairs.net->far_rho_uq16 : 0;
+    const std::uint32_t near =
+        pairs.net && pairs.net->near_rho_uq16 ? pairs.net->near_rho_uq16 : UINT32_MAX;
+    for (std::uint16_t k = 0; k < count; ++k) {
+      const auto j = std::uint16_t(first + k);
+      const std::uint32_t rho = lanes.rho_uq16[k];
+      if (rho == LaneFactors::kNotFacing) {
+        ++counters.skipped_facing;
+      } else if (rho > near) {
+        store(i.index, j,
+              urad::exchange_exact_q24(scene(), i, urad::patch_at(scene(), j),
+                                       urad::kHandOverPoints, &counters));
+      } else {
+        ++counters.evaluated;
+        counters.far_pairs += rho < far;
+        factor(i.index, j) = lanes.from_uq32[k];
+        factor(j, i.index) = lanes.to_uq32[k];
+      }
+    }
+  }
+
+  /// Patch i with those after it.
+  void row(std::uint16_t index) {
+    const urad::Patch i = urad::patch_at(scene(), index);
+    for (const urad_surface* to = i.surface; to != scene().surface + scene().surface_count; ++to) {
+      const auto first = std::max(std::uint16_t(index + 1), to->first_patch);
+      const auto count = std::uint16_t(to->first_patch + to->patch_count - first);
+      if (count == 0) continue;
+      if (to == i.surface && (to->flags & URAD_SURFACE_PLANAR)) {
+        counters.skipped_same += count;
+        continue;
+      }
+      const urad::Side side =
+          to == i.surface ? urad::Side::both : urad::side_of_run(scene(), i, *to);
+      if (side == urad::Side::behind) {
+        counters.skipped_facing += count;
+      } else if (side == urad::Side::front) {
+        in_lanes(i, first, count);
+      } else {
+        one_by_one(i, first, count);
+      }
+    }
+  }
+};
+
+/// Both directions of every pair.
+void add_twice(const urad_counters& part, urad_counters* sum) {
+  sum->evaluated += 2 * part.evaluated;
+  sum->skipped_same += 2 * part.skipped_same;
+  sum->skipped_facing += 2 * part.skipped_facing;
+  sum->clipped += 2 * part.clipped;
+  sum->far_pairs += 2 * part.far_pairs;
+  sum->near_pairs += 2 * part.near_pairs;
+}
+
+}  // namespace
+
+bool has_lanes(const urad::PairSource& pairs) {
+  return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.points == 0 && pairs.skips_off == 0;
+}
+
+void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32_t> f_uq32,
+               urad_counters* counters) {
+  const std::size_t n = pairs.scene->patch_count;
+  const PatchLanes patches(*pairs.scene);
+  std::fill(f_uq32.begin(), f_uq32.end(), 0);
+  std::mutex sum;
+  const std::size_t workers = std::min(thread_count(threads), n);
+  parallel_for(workers, threads, [&](std::size_t worker) {
+    Worker work{pairs, patches, f_uq32};
+    for (std::size_t i = worker; i < n; i += workers) work.row(std::uint16_t(i));
+    const std::lock_guard<std::mutex> guard(sum);
+    add_twice(work.counters, counters);
+  });
+}
+
+}  // namespace host
