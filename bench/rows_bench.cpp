@@ -43,9 +43,9 @@ void report(benchmark::State& state, const Factors& f) {
     }
   state.counters["rms"] = std::sqrt(squares / double(count));
   state.counters["max"] = most;
-  state.counters["ns_factor"] =
-      benchmark::Counter(double(c.n * c.n) * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
-                                                       benchmark::Counter::kInvert);
+  state.counters["factor"] =
+      benchmark::Counter(double(c.n * c.n), benchmark::Counter::kIsIterationInvariantRate |
+                                                benchmark::Counter::kInvert);
 }
 
 Factors unpacked(const std::vector<std::uint32_t>& f_uq32) {
