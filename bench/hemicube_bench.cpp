@@ -1,11 +1,11 @@
 // How fine a hemicube is fine enough? hemicube/SCENE/R: time per shot of a turned hemicube of
 // resolution R.
 //
-//   f_std         deviation of F - exact over pairs of patches on different planes
-//   row_worst     largest |row sum - exact row sum|
-//   b_rms         relative rms of the radiosity that these factors converge to, against the exact
-//   one ram           bytes of the source on a chip; m0_shot: Cortex-M0 instructions per shot of
-//   the cube, counted
+//   f_std       deviation of F - exact over pairs of patches on different planes
+//   row_worst   largest |row sum - exact row sum|
+//   b_rms       relative rms of the radiosity that these factors converge to, against the exact one
+//   ram         bytes of the source on a chip
+//   m0_shot     Cortex-M0 instructions per shot of the cube, counted
 #include <array>
 
 #include "fixtures.hpp"

@@ -1,8 +1,6 @@
-// form_factor.hpp -- unoccluded form factors of patch pairs, by kernel or network, and the source
-// that fills runs.
+// form_factor.hpp -- unoccluded form factors of patch pairs, by kernel or network, and their source.
 //
-//   F_ij = 1/A_i int_{A_i} int_{A_j} cos(t_i) cos(t_j) / (pi r^2) dA_j dA_i          [Martin 1996,
-//   Eq. 1.1]
+//   F_ij = 1/A_i int_{A_i} int_{A_j} cos(t_i) cos(t_j) / (pi r^2) dA_j dA_i   [Martin 1996, Eq. 1.1]
 //
 // The exchange G = A_i F_ij = A_j F_ji is one integer per unordered pair: log2 G in Q7.24.
 // Reciprocity is exact on it.

@@ -1,5 +1,4 @@
-// hemicube.hpp -- form factors from the centre of a patch to all patches at once, by an item
-// buffer.
+// hemicube.hpp -- form factors from the centre of a patch to all patches at once, by item buffer.
 //
 // A half cube stands on the centre of the shooter [Cohen & Greenberg 1985]: a top face of R x R
 // cells and four sides of R x R/2. Every cell is worth its delta form factor [Martin 1996, Eq. 2.7
@@ -101,9 +100,9 @@ urad_status hemicube_fill(void* hemicube_source, uint16_t shooter, uint16_t surf
 /// first above the horizon; rows are numbered as in the top face and those below R/2 stay empty.
 /// The row of factors held by the source is lost.
 ///
-/// Cell (column c, row r) looks along s a + t b + w, s = (2c+1-R)/R, t = (2r+1-R)/R, with (a, b, w)
-/// of face 0: (x, y, z)   1: (y, z, x)   2: (-y, z, -x)   3: (-x, z, y)   4: (x, z, -y)   and x, y,
-/// z = frame.axis[0 .. 2].
+/// Cell (column c, row r) looks along s a + t b + w, s = (2c+1-R)/R, t = (2r+1-R)/R. With x, y, z =
+/// frame.axis[0 .. 2], (a, b, w) of the faces is
+///   0: (x, y, z)   1: (y, z, x)   2: (-y, z, -x)   3: (-x, z, y)   4: (x, z, -y)
 Status hemicube_items(HemicubeSource* source, uint16_t shooter, int face,
                       uint16_t first_row) noexcept;
 

@@ -1,7 +1,7 @@
 // hemicube_table.hpp -- delta form factors as exact cell integrals that sum to exactly 2^32.
 //
-//   top   1 / (pi (1 + x^2 + y^2)^2)   [Martin 1996, Eq. 2.7]     side   z / (pi (1 + y^2 + z^2)^2)
-//   [2.8, corrected]
+//   top    1 / (pi (1 + x^2 + y^2)^2)     [Martin 1996, Eq. 2.7]
+//   side   z / (pi (1 + y^2 + z^2)^2)     [Eq. 2.8, corrected]
 //
 // Both integrate in closed form (the factor from a point to a rectangle), so that a table is as
 // good as its rounding; midpoint values would sum to 1 + 0.54/R^2. Double arithmetic, for compile

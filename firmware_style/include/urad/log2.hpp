@@ -1,5 +1,4 @@
-// log2.hpp -- log2 and 2^x by table: with them products, quotients and roots become sums and
-// halves.
+// log2.hpp -- log2 and 2^x by table: products, quotients and roots become sums and halves.
 //
 // Both tables are chords of 256 steps, moved by half their greatest error, computed at compile time
 // without libm.
@@ -86,11 +85,10 @@ constexpr int32_t log2_q24(uint64_t x) noexcept {
   return int32_t(uint32_t(n + 32) << 24) + table::log2_mantissa_q24(m);
 }
 
-/// round(2^x * 2^fraction_bits) for x in Q7.24, saturating at 2^32 - 1.    -64 <= fraction_bits <=
-/// 64
-///   chord, after the move  h^2/16 (ln 2)^2   relative 4.6e-7; next to the exact knots 9.2e-7
-///   rounding of the difference to 23 bits    relative 0.6e-7                       measured:
-///   tests/log2_test.cpp
+/// round(2^x * 2^fraction_bits) for x in Q7.24, saturating at 2^32 - 1; |fraction_bits| <= 64.
+///   chord, after the move  h^2/16 (ln 2)^2    relative 4.6e-7; next to the exact knots 9.2e-7
+///   rounding of the difference to 23 bits     relative 0.6e-7
+///   measured: tests/log2_test.cpp
 /// Exact at whole x. Width: difference < 2^16 after the shift, fraction 2^16.
 constexpr uint32_t exp2_uq(int32_t x_q24, int fraction_bits) noexcept {
   const int e = int(shift_down(x_q24, 24)) + fraction_bits;

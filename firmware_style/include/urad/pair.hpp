@@ -1,9 +1,10 @@
 // pair.hpp -- what two patches are to each other: the invariants that kernels and networks read.
 //
-//   r = c_j - c_i,  R = |r|,  w = r/R,  p = n_i.w,  q = -n_j.w,  s = tr M / R^2 (per patch),  rho =
-//   s_i + s_j K0 = A_i A_j p q / (pi R^2)                                                centre
-//   kernel (an exchange, G = A_i F_ij) T2 = sum over both of s [-2 + 12 a - 4 c/(m.w)],  a =
-//   w.Mw/trM,  c = m.Mw/trM,  m the other's normal
+//   r = c_j - c_i,  R = |r|,  w = r/R,  p = n_i.w,  q = -n_j.w
+//   s = tr M / R^2 of a patch,  rho = s_i + s_j
+//   K0 = A_i A_j p q / (pi R^2)                            centre kernel, an exchange: G = A_i F_ij
+//   T2 = sum over both of s [-2 + 12 a - 4 c/(m.w)]        a = w.Mw/trM,  c = m.Mw/trM,
+//                                                          m the other's normal
 //
 // Everything is invariant under rigid motion and scale, and belongs to the unordered pair: the two
 // patches are put into an order that depends on their invariants alone, so that (i, j) and (j, i)
@@ -23,9 +24,11 @@ inline constexpr uint32_t kSizeLimit_uq22 = uint32_t{8} << 22;  ///< s and slope
 
 /// Network inputs, all Q0.15. First = the patch that comes first in the canonical order (larger
 /// area, then cosine, ...):
-///   0 p  1 q  2 n_i.n_j    then per patch (first 3..7, second 8..12), its own M and the other's
-///   normal m: +0 s/(1+rho)   +1 a s/(1+rho)   +2 c s/((m.w)(1+rho))   +3 t/(1+t), t = m.Mm / (R
-///   m.w)^2   +4 A/(A + 12 tr M) 13 log2 of the bend / 4
+///   0 p   1 q   2 n_i.n_j
+///   3 ..  of the first patch, 8 .. of the second, with its own M and the other's normal m:
+///         s/(1+rho),  a s/(1+rho),  c s/((m.w)(1+rho)),  t/(1+t) with t = m.Mm/(R m.w)^2,
+///         A/(A + 12 tr M)
+///   13    log2 of the bend / 4
 struct Pair {
   int32_t log2_kernel_q24;  ///< log2 K0, square scene units, Q7.24
   int32_t log2_bend_q24;  ///< T2 / sqrt(1 + (T2/1.5)^2) in units of log2, Q7.24, |bend| < 2.17: K =
@@ -56,8 +59,9 @@ struct PairKernel {
 /// Kernel terms of two patches of which every part lies in front of the other's plane (cut before,
 /// if need be). False, with *kernel undefined, when a centroid lies on or behind the other's plane.
 ///   Error   log2 K0: 2.3e-6 each for p and q, 2 x 2.3e-6 for R^2; bend: 1e-5 of s (12 a, 4 c, each
-///   Q15 in the bracket) Cost    9 wide products (3 fewer for each normal along an axis), 52 of 32
-///   bits, 4 log2, 6 exp2; no division
+///           Q15 in the bracket)
+///   Cost    9 wide products (3 fewer for each normal along an axis), 52 of 32 bits, 4 log2, 6 exp2;
+///           no division
 bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_shape& j,
                  const urad_point& centroid_j, PairKernel* kernel) noexcept;
 

@@ -58,8 +58,7 @@ Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_sour
 /// Failure:
 ///
 /// - A status of the source: what was handed out before it failed stays so and is booked. The
-/// ledger
-///   holds and step may be called again, but B keeps the error of that part of a shot.
+///   ledger holds and step may be called again, but B keeps the error of that part of a shot.
 /// - overflow: a patch has reached URAD_POWER_LIMIT. Nothing has wrapped, the ledger holds; the
 ///   status stays.
 /// - diverges: over patch_count shots (with overshooting, over that four times in a row) the sum of

@@ -78,8 +78,7 @@ urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to
                              const urad_net* net, uint16_t rays, uint32_t* f_uq32,
                              urad_counters* counters);
 
-/* ---- sources: where a solver gets its factors from
- * --------------------------------------------------------------- */
+/* ---- sources: where a solver gets its factors from ------------------------------------------ */
 /* Each init function lays an object out in `memory` and writes a urad_source that works on it.
  *   memory   aligned like a uint64_t, `bytes` long, at least the matching *_bytes()
  *   kept     memory, scene, net, counters, and what they point to
@@ -133,8 +132,7 @@ urad_status urad_hybrid_source_init(urad_source* source, const urad_source* hemi
                                     unsigned kernel, const urad_net* net, uint16_t rays,
                                     uint32_t near_rho_uq16, void* memory, size_t bytes);
 
-/* ---- radiosity: progressive refinement
- * --------------------------------------------------------------------------- */
+/* ---- radiosity: progressive refinement ----------------------------------------------------- */
 
 #define URAD_PERCENT 42949673u /* 1 % as UQ0.32, for urad_radiosity_done() */
 

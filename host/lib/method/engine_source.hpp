@@ -25,9 +25,8 @@ bool is_engine_method(const MethodSpec& spec);
 ///   fixed-kernel, fixed-moment,      pairs, times the visible fraction by rays
 ///   fixed-lambert:N, net[:NAME]
 ///   hemicube:R                       turned; without item buffer in a convex scene
-///   hybrid[:R]                       occluded: visible fraction of the hemicube times the
-///   network's
-///                                    factor; convex: the network for pairs closer than three
+///   hybrid[:R]                       occluded: the network's factor times the visible fraction of the
+///                                    hemicube; convex: the network's for pairs closer than three
 ///                                    patches, else the hemicube's
 class EngineSource {
  public:

@@ -18,9 +18,8 @@ Normalisation normalisation(const TrainingSet& set);
 /// L(p) = sum w loss(e) / sum w + row_weight mean_rows (sum factor e)^2, e = target - gate y_p(x).
 /// over the samples with gate > 0; the others, far pairs, add a constant error to the row sums and
 /// are not evaluated again.
-///   loss(e) = e^2                                               robust = 0
-///   loss(e) = (4/3) c^2 ((1 + (e/c)^2)^(3/4) - 1)               robust = c: weight (1 +
-///   (e/c)^2)^(-1/4) on e^2
+///   loss(e) = e^2                                     robust = 0
+///   loss(e) = (4/3) c^2 ((1 + (e/c)^2)^(3/4) - 1)     robust = c: weight (1 + (e/c)^2)^(-1/4) on e^2
 class Objective {
  public:
   /// Copies what it needs. Inputs are normalised once, here. threads: 0 for all cores.
