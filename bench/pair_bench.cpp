@@ -9,6 +9,7 @@
 #include <array>
 
 #include "fixtures.hpp"
+#include "form_factor/closed_form.hpp"
 #include "form_factor/gauss.hpp"
 #include "form_factor/kernel.hpp"
 #include "form_factor/lambert.hpp"
@@ -165,6 +166,8 @@ double in_double(const Pair& pair) {
 const bool added = [] {
   for (const std::string set : kSets) {
     add_row(set, "reference", "", Reference());
+    add_row(set, "closed-form", "",
+            [](const Pair& pair) { return host::closed_form(*pair.p, *pair.q).f; });
     add_row(set, "lambert:1", "", in_double<host::lambert_estimate, 1>);
     add_row(set, "lambert:2", "", in_double<host::lambert_estimate, 2>);
     add_row(set, "lambert:3", "", in_double<host::lambert_estimate, 3>);

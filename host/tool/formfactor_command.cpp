@@ -39,11 +39,11 @@ void add_formfactor(CLI::App& app, const Common& common) {
   CLI::App* command =
       app.add_subcommand("formfactor", "Form factors of polygon pairs, with or without blockers");
   command
-      ->add_option("--method", options->methods,
-                   "M[,M...]: reference, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, moment, "
-                   "fixed-kernel, "
-                   "fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with --scene also "
-                   "hybrid[:R], rays:N")
+      ->add_option(
+          "--method", options->methods,
+          "M[,M...]: reference, closed-form, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, "
+          "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with "
+          "--scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
   sources->add_option("--in", options->in, "CSV with columns id, p, q (\"-\": standard input)");

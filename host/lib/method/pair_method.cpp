@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "form_factor/closed_form.hpp"
 #include "form_factor/gauss.hpp"
 #include "form_factor/kernel.hpp"
 #include "form_factor/lambert.hpp"
@@ -24,6 +25,12 @@ FreePairMethod exact(std::function<Estimate(const Polygon&, const Polygon&)> run
   return {
       [run = std::move(run)](const Polygon& p, const Polygon& q) { return PairResult{run(p, q)}; },
       knows_error};
+}
+
+PairResult by_closed_form(const Polygon& p, const Polygon& q) {
+  const ClosedForm result = closed_form(p, q);
+  if (result.ill_conditioned()) return {{}, "unsupported_ill_conditioned"};
+  return {result.estimate()};
 }
 
 /// The pair as a scene of two surfaces, and one factor of its row: integers all the way.
@@ -60,6 +67,11 @@ const std::map<std::string, Maker>& host_methods() {
        [](const MethodSpec& spec) {
          spec.expect_no_argument();
          return exact(reference_estimate, true);
+       }},
+      {"closed-form",
+       [](const MethodSpec& spec) {
+         spec.expect_no_argument();
+         return FreePairMethod{by_closed_form, true};
        }},
       {"kernel",
        [](const MethodSpec& spec) {
@@ -100,8 +112,8 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
   const auto maker = host_methods().find(spec.name);
   if (maker == host_methods().end()) {
     throw UsageError(
-        fmt::format("--method {}: unknown; known are reference, lambert:N, gauss:N, "
-                    "monte-carlo:SAMPLES, kernel, "
+        fmt::format("--method {}: unknown; known are reference, closed-form, lambert:N, "
+                    "gauss:N, monte-carlo:SAMPLES, kernel, "
                     "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R",
                     spec.text()));
   }

@@ -1,0 +1,106 @@
+#include "form_factor/closed_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "form_factor/edge_pair_closed.hpp"
+#include "form_factor/facing.hpp"
+
+namespace host {
+namespace {
+
+constexpr double kWorthMore = 1e-2 * kClosedFormTolerance;  // of error: long double's time
+
+/// Where the coordinates of a pair begin, and their unit: the reach of both polygons.
+struct Frame {
+  Vec3 origin;
+  double unit = 0;
+
+  explicit Frame(const FacingPair& pair) : origin(pair.p.outer[0]) {
+    for (const Polygon* polygon : {&pair.p, &pair.q})
+      for (const Vec3& x : polygon->outer) unit = std::max(unit, glm::length(x - origin));
+  }
+};
+
+template <class Real>
+std::vector<ClosedEdge<Real>> edges(const Polygon& polygon, const Frame& frame) {
+  using Vector = glm::vec<3, Real>;
+  const auto in_frame = [&](const Vec3& x) {
+    return (Vector(x) - Vector(frame.origin)) / static_cast<Real>(frame.unit);
+  };
+  std::vector<ClosedEdge<Real>> result;
+  for (const Loop& loop : boundary(polygon)) {
+    Vector start = in_frame(loop.back());
+    for (const Vec3& x : loop) {
+      const Vector end = in_frame(x);
+      const Real length = glm::length(end - start);
+      if (length > 0) result.push_back({{start, end}, (end - start) / length, length});
+      start = end;
+    }
+  }
+  return result;
+}
+
+template <class Real>
+ClosedEdge<Real> turned(const ClosedEdge<Real>& edge) {
+  return {{edge.ends[1], edge.ends[0]}, -edge.direction, edge.length};
+}
+
+/// A_p F_pq of a clipped pair, in squares of the frame's unit.
+template <class Real>
+Bounded<double> exchange(const FacingPair& pair, const Frame& frame) {
+  constexpr Real kEpsilon = std::numeric_limits<Real>::epsilon();
+  const std::vector<ClosedEdge<Real>> q_edges = edges<Real>(pair.q, frame);
+  Bounded<Real> sum;
+  for (const ClosedEdge<Real>& e : edges<Real>(pair.p, frame))
+    for (const ClosedEdge<Real>& f : q_edges) {
+      const Real cosine = glm::dot(e.direction, f.direction);
+      sum.error += 4 * kEpsilon;  // of the cosine, times an integral that is below 2 here
+      if (std::abs(cosine) <= kEpsilon) continue;
+      const Bounded<Real> term = closed_log_integral(e, cosine < 0 ? turned(f) : f);
+      sum.value += cosine * term.value;
+      sum.error += std::abs(cosine) * term.error;
+    }
+  constexpr Real kScale = std::numbers::inv_pi_v<Real> / 2;
+  return {static_cast<double>(kScale * sum.value), static_cast<double>(kScale * sum.error)};
+}
+
+double radius(const Polygon& polygon, const Vec3& centre) {
+  double result = 0;
+  for (const Vec3& x : polygon.outer) result = std::max(result, glm::length(x - centre));
+  return result;
+}
+
+/// What A_p F_pq cannot exceed: either area, and both with cosines of one at the least distance.
+double most_exchange(const FacingPair& pair) {
+  const Moments p = moments(pair.p);
+  const Moments q = moments(pair.q);
+  const double most = std::min(p.area, q.area);
+  const double gap = glm::length(q.centroid - p.centroid) - radius(pair.p, p.centroid) -
+                     radius(pair.q, q.centroid);
+  if (!(gap > 0)) return most;
+  return std::min(most, std::numbers::inv_pi * (p.area / gap) * (q.area / gap));
+}
+
+}  // namespace
+
+ClosedForm closed_form(const Polygon& p, const Polygon& q) {
+  const FacingPair pair = clip_to_front(p, q);
+  if (pair.empty()) return {};
+  const double most = most_exchange(pair);
+  if (!(most > 0)) return {};
+  const Frame frame(pair);
+  const double per_area = frame.unit * (frame.unit / moments(p).area);
+  const double most_f = std::min(1.0, most / moments(p).area);
+  const auto factor = [&](const Bounded<double>& g) {
+    return ClosedForm{std::clamp(per_area * g.value, 0.0, most_f),
+                      std::min(per_area * g.error, most_f)};
+  };
+  const ClosedForm result = factor(exchange<double>(pair, frame));
+  return result.error <= kWorthMore ? result : factor(exchange<long double>(pair, frame));
+}
+
+}  // namespace host
