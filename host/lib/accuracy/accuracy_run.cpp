@@ -86,8 +86,9 @@ void try_cornell(SceneSolver& cornell, const urad_net* general, AccuracyResults*
 
 std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* own) {
   std::vector<TableMethod> methods;
-  for (const char* text : {"reference", "kernel", "moment", "lambert:1", "lambert:2", "lambert:3",
-                           "gauss:2", "gauss:4", "hemicube:64", "fixed-kernel", "fixed-moment"})
+  for (const char* text :
+       {"reference", "closed-form", "kernel", "moment", "lambert:1", "lambert:2", "lambert:3",
+        "gauss:2", "gauss:4", "hemicube:64", "fixed-kernel", "fixed-moment"})
     methods.push_back({text, parse_method(text), {}});
   methods.push_back({"net, general", {"net", ""}, {{}, general}});
   methods.push_back({"net, of cube7", {"net", ""}, {{}, own}});

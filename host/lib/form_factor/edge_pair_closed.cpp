@@ -4,10 +4,9 @@
 //   r^2 = s^2 + t^2 - 2 s t cos alpha + h^2 = |s e - t f|^2 + h^2 :
 //
 // the wanted integral is that of ln(rho^2 + h^2) / (2 sin alpha) over a plane parallelogram, rho
-// being the distance from the foot O. Each of its sides is two sides of right triangles with
-// corners O, the foot of O on the side's line, and a corner of the parallelogram. With the legs d
-// (from O to the line) and x (along the line), phi = atan(x / d) and D^2 = d^2 + h^2, such a
-// triangle has
+// being the distance from the foot O. Each of its sides makes two right triangles, whose corners
+// are O, the foot of O on the side's line, and one of the side's ends. With the legs d (from O to
+// the line) and x (along it), phi = atan(x / d) and D^2 = d^2 + h^2, such a triangle has
 //
 //   2 int ln(rho^2 + h^2) = int over the angle 0..phi of
 //                           r^2 (ln r^2 - 1) - h^2 (ln h^2 - 1),  r^2 = D^2 + (d tan)^2
