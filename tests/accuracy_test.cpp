@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <random>
 
+#include "accuracy/closed_form_checks.hpp"
 #include "accuracy/method_table.hpp"
 #include "accuracy/occluded_checks.hpp"
 #include "accuracy/pair_families.hpp"
@@ -262,4 +263,28 @@ TEST_CASE("a room written at run time: cube7's bounds within a factor of two") {
     CHECK(hemicube.factors.std <= 2 * rows[3].row.errors.std);
     CHECK(std_of_cut_hemicubes(solver, written_room(seed, scale, 3), 3, 64) <= 2 * 8e-4);
   }
+}
+
+TEST_CASE("the closed form on random and degenerate pairs and on a cube") {
+  std::vector<host::ClosedFormCheck> checks = host::check_closed_form(7, 60, 0);
+  CHECK(checks.size() == 11);
+  const host::Scene scene = host::load_scene("cube7");
+  Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(294, 294);
+  for (int i = 0; i < 294; ++i)
+    for (int j = 0; j < i; ++j)
+      exact(i, j) = exact(j, i) = host::reference_form_factor(
+          scene.patches[std::size_t(i)].polygon, scene.patches[std::size_t(j)].polygon);
+  checks.push_back(host::check_closed_form(scene, exact, 0));
+  CHECK(checks.back().pairs == 294 * 294);
+  for (const host::ClosedFormCheck& check : checks) {
+    INFO(check.name);
+    CHECK(check.refused == 0);
+    CHECK(check.understated == 0);
+    CHECK(check.worst < 1e-11);
+    CHECK(check.largest_bound <= 1e-9);
+  }
+  exact(20, 100) += 1e-8;  // a wrong factor is seen
+  const host::ClosedFormCheck wrong = host::check_closed_form(scene, exact, 0);
+  CHECK(wrong.understated == 1);
+  CHECK(wrong.worst == doctest::Approx(1e-8).epsilon(0.01));
 }

@@ -50,6 +50,9 @@ void check_reference(const AccuracyRequest& request, SceneSolver& cube7, Accurac
   results->cube_rows = check_rows(cube7.exact().form_factors);
   results->hostile = check_degenerate(request.pair_seed, request.pairs, request.threads);
   results->scales = check_scales(request.pair_seed, request.pairs / 10 + 1, request.threads);
+  results->closed_form = check_closed_form(request.pair_seed, 10 * request.pairs, request.threads);
+  results->closed_form.push_back(
+      check_closed_form(cube7.scene(), cube7.exact().form_factors, request.threads));
   results->squares = check_occluded(known_square_obstructions(), request.threads);
   results->l_room = check_occluded(known_l_room(), request.threads);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/closed_form_checks.hpp"
 #include "accuracy/method_table.hpp"
 #include "accuracy/occluded_checks.hpp"
 #include "accuracy/reference_checks.hpp"
@@ -53,6 +54,7 @@ struct AccuracyResults {
   RowCheck cube_rows;
   std::vector<HostileCheck> hostile;
   ScaleCheck scales;
+  std::vector<ClosedFormCheck> closed_form;  ///< the last: cube7
   std::vector<OccludedCheck> squares, l_room;
   std::vector<SceneNetTrial> cube7;
   std::vector<ChipSolve> chip;      ///< by seed

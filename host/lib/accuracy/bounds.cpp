@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "form_factor/closed_form.hpp"
 #include "report/text.hpp"
 
 namespace host {
@@ -55,6 +56,24 @@ void add_reference(const AccuracyResults& r, List* list) {
        fmt::format("{} not finite, {} negative; F changes by {:.1e} at most",
                    scales.counts.not_finite, scales.counts.negative, scales.worst_change),
        scales.counts.not_finite + scales.counts.negative == 0});
+}
+
+void add_closed_form(const AccuracyResults& r, List* list) {
+  std::size_t pairs = 0, random = 0, random_refused = 0, hard_refused = 0;
+  const double worst = worst_of(r.closed_form, [](const ClosedFormCheck& c) { return c.worst; });
+  for (const ClosedFormCheck& check : r.closed_form) {
+    pairs += check.pairs;
+    (check.random ? random_refused : hard_refused) += check.refused;
+    if (check.random) random += check.pairs;
+  }
+  const std::size_t of_cube = r.closed_form.back().refused;
+  list->push_back(
+      {fmt::format("closed form against the reference, {} pairs", pairs),
+       "1e-9 where answered; refused: 1 % of random pairs, none of cube7",
+       fmt::format("worst difference {:.1e}; refused: {} of {} random pairs, {} of cube7, {} of "
+                   "degenerate families",
+                   worst, random_refused, random, of_cube, hard_refused - of_cube),
+       worst <= kClosedFormTolerance && 100 * random_refused <= random && of_cube == 0});
 }
 
 void add_occluded(const std::string& what, const std::vector<OccludedCheck>& checks, List* list) {
@@ -163,6 +182,7 @@ const SceneMethodRow& row_of(const std::vector<SceneMethodRow>& table, const std
 std::vector<Bound> bounds(const AccuracyResults& results) {
   List list;
   add_reference(results, &list);
+  add_closed_form(results, &list);
   add_occluded("square obstruction, in a corner and in the middle", results.squares, &list);
   add_occluded(fmt::format("L-room, {} factors", results.l_room.size()), results.l_room, &list);
   add_cube_factors(results, &list);

@@ -129,6 +129,16 @@ std::string hostile_table(const AccuracyResults& results) {
   return text;
 }
 
+std::string closed_form_table(const AccuracyResults& results) {
+  std::string text =
+      head({"pairs", "number", "refused", "worst difference", "largest bound", "beyond bounds"}, 1);
+  for (const ClosedFormCheck& c : results.closed_form)
+    text += line({c.name, std::to_string(c.pairs), std::to_string(c.refused),
+                  fmt::format("{:.1e}", c.worst), fmt::format("{:.1e}", c.largest_bound),
+                  std::to_string(c.understated)});
+  return text;
+}
+
 std::string occluded_table(const AccuracyResults& results) {
   std::string text =
       head({"case", "F", "hybrid:64, 4 x 4 pieces", "rays:256", "rays:256, 4 x 4 pieces"}, 1);
@@ -202,6 +212,11 @@ std::string accuracy_document(const AccuracyResults& results) {
       "\n## Hostile input to the reference\n\nAsymmetry: largest |A_p F_pq - A_q F_qp| over the "
       "smaller area.\n\n" +
       hostile_table(results);
+  text +=
+      "\n## The closed form against the reference\n\nDifferences of F where `closed-form` answers, "
+      "the largest error it admits with an answer, and how many answers lie further from the "
+      "reference than both admit.\n\n" +
+      closed_form_table(results);
   return text;
 }
 

@@ -74,7 +74,7 @@ void add_triangle(const SideLine<Real>& side, Real x, Real log_r2, Real sign, Su
   constexpr Real kPi = std::numbers::pi_v<Real>;
   const Real d = std::abs(side.d);
   const Real d2 = d * d;
-  if (!(d2 > 0)) return;
+  if (!(d2 >= std::numeric_limits<Real>::min())) return;  // nothing, or lost in rounding
   if (side.d < 0) sign = -sign;
   const Real omega = std::atan(x / side.distance);
   sum->add(sign * d * x * log_r2);
