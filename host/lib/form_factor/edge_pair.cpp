@@ -221,7 +221,8 @@ double log_distance_integral(const Edge& e, const Edge& f, double unit) {
     const double over_f = 2 * gap / f.length;
     const int ne = points_needed(over_e + std::sqrt(1 + over_e * over_e));
     const int nf = points_needed(over_f + std::sqrt(1 + over_f * over_f));
-    if (ne * nf <= kMaxProduct || (parallel && ne <= kMaxPoints && nf <= kMaxPoints))
+    const bool enough = ne <= kMaxPoints && nf <= kMaxPoints;
+    if (enough && (parallel || ne * nf <= kMaxProduct))
       return product_integral(e, ne, f, nf, unit2);
   }
   // The shorter edge outside: the singularities of the longer one are then furthest for its length.
