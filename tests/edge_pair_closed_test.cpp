@@ -86,3 +86,18 @@ TEST_CASE("edges at a fair angle keep their digits") {
     CHECK(std::abs(result.value - by_quadrature(a, b, c, d)) <= result.error);
   }
 }
+
+TEST_CASE("edges in line but for a hair, apart, overlapping and end to end") {
+  families::Random random(99);
+  double worst = 0;
+  for (int draw = 0; draw < 4000; ++draw) {
+    const double angle = std::ldexp(1, -static_cast<int>(random.uniform(20, 52)));
+    const Vec3 along = draw % 2 ? Vec3(1, 0, angle) : Vec3(std::cos(angle), 0, std::sin(angle));
+    const double places[] = {-2, -1, -0.5, 0, 0.5, 1};
+    const Vec3 c = Vec3(1, 0, 0) + places[draw % 6] * along;
+    const Vec3 a(0), b(1, 0, 0), d = c + random.uniform(0.1, 2) * along;
+    const auto result = closed_log_integral(edge<double>(a, b), edge<double>(c, d));
+    worst = std::max(worst, std::abs(result.value - by_quadrature(a, b, c, d)) / result.error);
+  }
+  CHECK(worst <= 1);
+}

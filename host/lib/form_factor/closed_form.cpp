@@ -68,21 +68,44 @@ Bounded<double> exchange(const FacingPair& pair, const Frame& frame) {
   return {static_cast<double>(kScale * sum.value), static_cast<double>(kScale * sum.error)};
 }
 
-double radius(const Polygon& polygon, const Vec3& centre) {
-  double result = 0;
-  for (const Vec3& x : polygon.outer) result = std::max(result, glm::length(x - centre));
-  return result;
-}
+/// A clipped polygon, and what clipping may have done to it.
+struct Part {
+  Moments m;
+  double radius = 0;  // about the centroid
+  double reach = 0;   // of its coordinates
+  bool is_cut = false;
+  const Polygon& polygon;
+
+  Part(const Polygon& given, const Polygon& clipped)
+      : m(moments(clipped)), is_cut(clipped.outer != given.outer), polygon(clipped) {
+    for (const Vec3& x : polygon.outer) {
+      radius = std::max(radius, glm::length(x - m.centroid));
+      reach = std::max(reach, glm::length(x));
+    }
+  }
+
+  /// How much of A_p F_pq the rounding of new corners may change: light arrives in a strip along
+  /// the edges, and what falls on a line is at most that of 4 radii in full sight of the other.
+  double rounding(const Part& other) const {
+    if (!is_cut) return 0;
+    double length = 0;
+    for (const Loop& loop : boundary(polygon)) {
+      Vec3 start = loop.back();
+      for (const Vec3& end : loop) {
+        length += std::min(glm::length(end - start), 4 * other.radius);
+        start = end;
+      }
+    }
+    return std::numeric_limits<double>::epsilon() * std::max(reach, other.reach) * length;
+  }
+};
 
 /// What A_p F_pq cannot exceed: either area, and both with cosines of one at the least distance.
-double most_exchange(const FacingPair& pair) {
-  const Moments p = moments(pair.p);
-  const Moments q = moments(pair.q);
-  const double most = std::min(p.area, q.area);
-  const double gap = glm::length(q.centroid - p.centroid) - radius(pair.p, p.centroid) -
-                     radius(pair.q, q.centroid);
+double most_exchange(const Part& p, const Part& q) {
+  const double most = std::min(p.m.area, q.m.area);
+  const double gap = glm::length(q.m.centroid - p.m.centroid) - p.radius - q.radius;
   if (!(gap > 0)) return most;
-  return std::min(most, std::numbers::inv_pi * (p.area / gap) * (q.area / gap));
+  return std::min(most, std::numbers::inv_pi * (p.m.area / gap) * (q.m.area / gap));
 }
 
 }  // namespace
@@ -90,17 +113,22 @@ double most_exchange(const FacingPair& pair) {
 ClosedForm closed_form(const Polygon& p, const Polygon& q) {
   const FacingPair pair = clip_to_front(p, q);
   if (pair.empty()) return {};
-  const double most = most_exchange(pair);
+  const Part p_part(p, pair.p);
+  const Part q_part(q, pair.q);
+  const double most = most_exchange(p_part, q_part);
   if (!(most > 0)) return {};
   const Frame frame(pair);
-  const double per_area = frame.unit * (frame.unit / moments(p).area);
-  const double most_f = std::min(1.0, most / moments(p).area);
+  const double area = moments(p).area;
+  const double per_area = frame.unit * (frame.unit / area);
+  const double most_f = std::min(1.0, most / area);
+  const double clipping = (p_part.rounding(q_part) + q_part.rounding(p_part)) / area;
   const auto factor = [&](const Bounded<double>& g) {
     return ClosedForm{std::clamp(per_area * g.value, 0.0, most_f),
-                      std::min(per_area * g.error, most_f)};
+                      std::min(per_area * g.error + clipping, most_f)};
   };
   const ClosedForm result = factor(exchange<double>(pair, frame));
-  return result.error <= kWorthMore ? result : factor(exchange<long double>(pair, frame));
+  return result.error - clipping <= kWorthMore ? result
+                                               : factor(exchange<long double>(pair, frame));
 }
 
 }  // namespace host

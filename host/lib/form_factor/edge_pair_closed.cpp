@@ -182,7 +182,7 @@ Bounded<Real> parallel_integral(const ClosedEdge<Real>& e, const ClosedEdge<Real
       const Real mean = mean_length(across(r, e.direction), across(r, f.direction));
       const Real log_r2 = corners.log_r2[i][j];
       sum.add(sign * (u * u - h * h) * log_r2 / 4);
-      if (h > 0) sum.add(sign * mean * u * std::atan(u / h));
+      sum.add(sign * mean * u * std::atan2(u, h));
       sum.add(-sign * Real(0.75) * u * u);
       turned += sine * sine * (u * u + h * h) * (1 + std::abs(log_r2));
     }
