@@ -11,6 +11,7 @@
 #include "form_factor/facing.hpp"
 #include "form_factor/gauss.hpp"
 #include "form_factor/lambert.hpp"
+#include "geometry/distance.hpp"
 
 namespace host {
 namespace {
@@ -153,28 +154,47 @@ bool far_exchange(const Side& p, const Side& q, Exchange* result) {
   return true;
 }
 
-/// The finer of two rules, with their difference as error. Rules that have not met to six digits
-/// show that the patches touch, where they converge too slowly for the difference to mean anything.
-Exchange by_difference(double coarse, double fine, double rounding) {
+/// Relative error of a rule of n points over a patch of this radius, `gap` away from what it looks
+/// at, where the integrand stays analytic [Trefethen 2008].
+double rule_error(int n, double radius, double gap) {
+  const double x = gap / radius;
+  return std::pow(x + std::sqrt(1 + x * x), -2 * n);
+}
+
+/// The finer of two rules. Their difference alone proves nothing: near each other, both may miss the
+/// same narrow peak.
+Exchange by_difference(double coarse, double fine, double from_afar, double rounding) {
   const double difference = std::abs(fine - coarse);
   if (!(difference <= 1e-6 * fine)) return {fine, std::numeric_limits<double>::infinity()};
-  return {fine, 10 * difference + rounding};
+  return {fine, std::max(10 * difference, from_afar * fine) + rounding};
 }
 
 /// A sliver's two long edges cancel in the contour. Exact point-to-polygon sums at points of the
 /// smaller polygon do better.
-Exchange point_exchange(const Polygon& p, const Polygon& q) {
-  const bool p_smaller = moments(p).area <= moments(q).area;
+Exchange point_exchange(const Polygon& p, const Polygon& q, const Side& p_side, const Side& q_side,
+                        double gap) {
+  constexpr int kPoints = 20;
+  const bool p_smaller = p_side.m.area <= q_side.m.area;
   const Polygon& smaller = p_smaller ? p : q;
   const Polygon& larger = p_smaller ? q : p;
-  return by_difference(lambert_exchange(smaller, larger, 12), lambert_exchange(smaller, larger, 20),
-                       8 * kEpsilon * moments(smaller).area);
+  const Side& side = p_smaller ? p_side : q_side;
+  return by_difference(lambert_exchange(smaller, larger, 12),
+                       lambert_exchange(smaller, larger, kPoints),
+                       rule_error(kPoints, side.radius, gap), 8 * kEpsilon * side.m.area);
 }
 
 /// Two slivers: no sums over edges at all.
-Exchange area_exchange(const Polygon& p, const Polygon& q) {
-  const double fine = gauss_exchange(p, q, 12);
-  return by_difference(gauss_exchange(p, q, 8), fine, 64 * kEpsilon * fine);
+Exchange area_exchange(const Polygon& p, const Polygon& q, const Side& p_side, const Side& q_side,
+                       double gap) {
+  constexpr int kPoints = 12;
+  const double fine = gauss_exchange(p, q, kPoints);
+  return by_difference(gauss_exchange(p, q, 8), fine,
+                       rule_error(kPoints, std::max(p_side.radius, q_side.radius), gap),
+                       64 * kEpsilon * fine);
+}
+
+Exchange in_bounds(const Exchange& exchange, double most) {
+  return {std::clamp(exchange.value, 0.0, most), exchange.error};
 }
 
 Exchange exchange(const Polygon& given_p, const Polygon& given_q) {
@@ -190,14 +210,19 @@ Exchange exchange(const Polygon& given_p, const Polygon& given_q) {
   if (!(most > 0)) return {};
   Exchange result;
   if (!far_exchange(p, q, &result)) result = contour_exchange(p, q);
-  const bool sliver = p.is_sliver() || q.is_sliver();
+  const auto doubtful = [&] { return result.error > kDoubtful * result.value; };
+  if (!(p.is_sliver() || q.is_sliver()) || !doubtful()) return in_bounds(result, most);
+  const double gap = distance(pair.p, pair.q);
   for (const auto second_opinion : {point_exchange, area_exchange}) {
-    if (!sliver || !(result.error > kDoubtful * result.value)) break;
-    const Exchange other = second_opinion(first, second);
-    if (other.error < result.error) result = other;
+    if (!doubtful()) break;
+    const Exchange other = second_opinion(first, second, p, q, gap);
+    const bool met = other.error < std::numeric_limits<double>::infinity();
+    if (other.error < result.error)
+      result = other;
+    else if (met && std::abs(other.value - result.value) <= result.error)
+      result = {other.value, 2 * result.error};  // mostly the better one, but nothing proves it
   }
-  result.value = std::clamp(result.value, 0.0, most);
-  return result;
+  return in_bounds(result, most);
 }
 
 }  // namespace
