@@ -73,11 +73,14 @@ Real squared(std::complex<Real> z) {
 template <class Real>
 std::complex<Real> dilogarithm(std::complex<Real> log_z, std::complex<Real> log_complement) {
   constexpr Real kLi2Of1 = std::numbers::pi_v<Real> * std::numbers::pi_v<Real> / 6;
-  if (squared(log_complement) <= squared(log_z)) return series(-log_complement);
-  const std::complex<Real> reflected = series(-log_z);
-  if (log_z == Real(0)) return kLi2Of1;  // times the infinite ln(1 - z)
+  if (log_z == Real(0)) return kLi2Of1;  // where ln(1 - z) is infinite
+  // Chosen number by number: no branch, which would be taken at random.
+  const bool direct = squared(log_complement) <= squared(log_z);
+  const std::complex<Real> sum = series<Real>({direct ? -log_complement.real() : -log_z.real(),
+                                               direct ? -log_complement.imag() : -log_z.imag()});
   const std::complex<Real> both = product(log_z, log_complement);
-  return {kLi2Of1 - both.real() - reflected.real(), -both.imag() - reflected.imag()};
+  return {direct ? sum.real() : kLi2Of1 - both.real() - sum.real(),
+          direct ? sum.imag() : -both.imag() - sum.imag()};
 }
 
 template std::complex<double> dilogarithm(std::complex<double>, std::complex<double>);

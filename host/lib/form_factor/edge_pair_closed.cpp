@@ -58,7 +58,7 @@ struct SideLine {
   Real h;         ///< between the two edges' lines
   Real distance;  ///< D
   Real log_rest;  ///< ln(D + |d|)
-  Real log_q;
+  Real log_q;     ///< meaningless for h = 0
 
   SideLine(Real from_foot, Real height)
       : d(from_foot),
@@ -108,7 +108,7 @@ struct Corners {
   }
 };
 
-/// Whether an end is the second of its edge: + and - of the integral's limits.
+/// + or - of a corner, in the difference of differences that limits of integration make.
 template <class Real>
 Real corner_sign(std::size_t i, std::size_t j) {
   return i == j ? Real(1) : Real(-1);
