@@ -1,0 +1,105 @@
+// urad reproduce: the experiments of the 1996 report, its numbers beside ours.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "command.hpp"
+#include "legacy/reproduce.hpp"
+
+namespace tool {
+
+namespace {
+
+constexpr int kEpochs = 4000, kQuickEpochs = 40;
+constexpr double kQuickShare = 0.1;
+
+struct Options {
+  std::string what, out;
+  int epochs = 0;
+  std::uint64_t seed = 1;
+  bool quick = false;
+};
+
+host::ReproduceRequest request_of(const Options& options, const Common& common) {
+  host::ReproduceRequest request;
+  request.folder = options.out;
+  request.epochs = options.epochs > 0 ? options.epochs : options.quick ? kQuickEpochs : kEpochs;
+  request.share = options.quick ? kQuickShare : 1;
+  request.command_tail = options.quick ? " --quick" : "";
+  request.seed = options.seed;
+  request.threads = common.threads;
+  request.quiet = common.quiet;
+  std::string less;
+  if (request.epochs < kEpochs)
+    less = fmt::format("{} epochs instead of {}", request.epochs, kEpochs);
+  if (options.quick)
+    less += fmt::format("{}{:.0f} % of the random samples", less.empty() ? "" : ", ",
+                        100 * kQuickShare);
+  if (!less.empty()) request.shortened = "Shortened: " + less + ".";
+  return request;
+}
+
+void run(const Options& options, const Common& common) {
+  const host::ReproduceRequest request = request_of(options, common);
+  std::error_code failure;
+  std::filesystem::create_directories(options.out, failure);
+  if (failure) throw host::Error(options.out + ": " + failure.message());
+  const auto asked = [&](const char* what) {
+    return options.what == "all" || options.what == what;
+  };
+  const auto show = [&](const std::vector<host::ResultTable>& tables) {
+    for (const host::ResultTable& table : tables) {
+      const std::string path = options.out + "/" + table.file;
+      host::write_file_atomically(path + ".csv", host::to_csv(table));
+      host::write_file_atomically(path + ".md", host::to_markdown(table));
+      fmt::print("{}\n", host::to_text(table));
+    }
+  };
+  if (asked("table3.1") || asked("table3.2")) {
+    std::vector<host::ResultTable> tables = host::reproduce_random(request);
+    if (options.what != "all")
+      std::erase_if(tables, [&](const auto& table) { return table.file != options.what; });
+    show(tables);
+  }
+  if (asked("table4.1") || asked("figure4.3") || asked("section2.9")) {
+    const host::CubeExperiment cube =
+        host::cube_experiment(request, options.what == "figure4.3" ? 50 : 0);
+    if (asked("table4.1")) show(host::reproduce_cube(request, cube));
+    if (asked("figure4.3")) show(host::reproduce_figure(request, cube));
+    if (asked("section2.9")) show(host::reproduce_operations(request, cube));
+  }
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, const Common& common) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "reproduce",
+      "The 1996 report again, its numbers beside ours; a run that was interrupted goes on where it "
+      "was");
+  command
+      ->add_option("WHAT", options->what,
+                   "table3.1, table3.2, table4.1, figure4.3, section2.9, all")
+      ->required()
+      ->check(CLI::IsMember(std::set<std::string>{"table3.1", "table3.2", "table4.1", "figure4.3",
+                                                  "section2.9", "all"}));
+  command
+      ->add_option("--epochs", options->epochs,
+                   fmt::format("Epochs of every training; default {}, the report's", kEpochs))
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--seed", options->seed, "Start weights, split, random quads")
+      ->capture_default_str();
+  command->add_flag("--quick", options->quick,
+                    fmt::format("{} epochs and a tenth of the random samples", kQuickEpochs));
+  command->add_option("-o,--out", options->out, "Folder for tables, pictures and networks")
+      ->required();
+  command->callback([options, &common] { run(*options, common); });
+}
+
+}  // namespace tool
