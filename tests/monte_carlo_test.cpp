@@ -64,6 +64,20 @@ TEST_CASE("the same bits for the same seed, other bits for another, and no sampl
   CHECK_THROWS_AS(monte_carlo(floor, ceiling, 0), host::Error);
 }
 
+TEST_CASE("from a huge to a tiny polygon: most rays of the huge one start where nothing is seen") {
+  const Polygon ground = rectangle(1000, 1000, 0, -500, -500);
+  for (const double size : {1.0, 1e-3, 1e-6}) {
+    CAPTURE(size);
+    const Polygon tile = flipped(rectangle(size, size, size, 3, 4));
+    const double exact = host::reference_form_factor(ground, tile);
+    const Estimate e = monte_carlo(ground, tile, 1024);
+    CHECK(std::abs(e.f - exact) <= 0.01 * exact);
+    CHECK(e.relative_error < 0.01);
+    CHECK(monte_carlo(tile, ground, 1024).f * size * size ==
+          doctest::Approx(e.f * 1e6).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("segments hit inside, and not beside, behind or at their ends") {
   const Polygon square = rectangle(1, 1);
   CHECK(segment_hits({0.5, 0.5, 1}, {0.5, 0.5, -1}, square));

@@ -6,11 +6,14 @@
 
 #include "form_factor/area_rule.hpp"
 #include "form_factor/facing.hpp"
+#include "geometry/order.hpp"
 
 namespace host {
 
-double gauss_exchange(const Polygon& p, const Polygon& q, int n) {
+double gauss_exchange(const Polygon& given_p, const Polygon& given_q, int n) {
   gauss_rule(n);  // a wrong n is an error for every pair, also for one that cannot see each other
+  const Polygon p = standard_order(given_p);
+  const Polygon q = standard_order(given_q);
   if (clip_to_front(p, q).empty()) return 0;
   const Moments mp = moments(p);
   const Moments mq = moments(q);

@@ -7,6 +7,7 @@
 
 #include "form_factor/area_rule.hpp"
 #include "form_factor/facing.hpp"
+#include "geometry/order.hpp"
 
 namespace host {
 namespace {
@@ -43,8 +44,10 @@ double point_form_factor(const Vec3& x, const Vec3& n, const Polygon& polygon) {
   return above.outer.empty() ? 0 : point_sum(x, n, boundary(above));
 }
 
-double lambert_exchange(const Polygon& p, const Polygon& q, int n) {
+double lambert_exchange(const Polygon& given_p, const Polygon& given_q, int n) {
   gauss_rule(n);  // a wrong n is an error for every pair, also for one that cannot see each other
+  const Polygon p = standard_order(given_p);
+  const Polygon q = standard_order(given_q);
   const FacingPair pair = clip_to_front(p, q);
   if (pair.empty()) return 0;
   const Moments mp = moments(p);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "form_factor/facing.hpp"
+#include "geometry/order.hpp"
 #include "geometry/planar.hpp"
 #include "geometry/triangulate.hpp"
 
@@ -16,6 +17,9 @@ namespace {
 constexpr int kReplicates = 16;
 constexpr int kDimensions = 4;
 constexpr double kSmallAngle = 1e-4;  // steradians below which spherical trigonometry loses digits
+// Within the same of a whole hemisphere it loses them, too; there a ray in any direction hits, but
+// for one in 10^8.
+constexpr double kWideAngle = 2 * std::numbers::pi - kSmallAngle;
 
 std::uint64_t splitmix64(std::uint64_t* state) {
   std::uint64_t z = *state += 0x9E3779B97F4A7C15U;
@@ -128,11 +132,16 @@ class Blocker {
   std::vector<Loop2> loops_;
 };
 
+/// Triangles of what one polygon shows to the other.
+struct Side {
+  std::vector<Triangle> triangles;
+  std::vector<double> areas;
+  double area = 0;
+  Vec3 normal{0};
+};
+
 struct Scene {
-  std::vector<Triangle> p_triangles, q_triangles;
-  std::vector<double> p_areas;
-  double p_area = 0;
-  Vec3 p_normal, q_normal;
+  Side from, to;
   std::vector<Blocker> blockers;
 
   bool blocked(const Vec3& a, const Vec3& b) const {
@@ -140,34 +149,53 @@ struct Scene {
                        [&](const Blocker& x) { return x.hit(a, b); });
   }
 
-  /// One ray: its share of F, whose mean over the points of the unit cube is F from the clipped p.
+  /// Whether a ray that leaves x by the cosine law gets there.
+  bool seen_by_cosine(const Vec3& x, double u, double v) const {
+    const Vec3 side = glm::normalize(from.triangles[0][1] - from.triangles[0][0]);
+    const double angle = 2 * std::numbers::pi * u;
+    const Vec3 d =
+        std::sqrt(v) * (std::cos(angle) * side + std::sin(angle) * glm::cross(from.normal, side)) +
+        std::sqrt(1 - v) * from.normal;
+    const double slope = glm::dot(to.normal, d);
+    if (!(slope < 0)) return false;
+    const Vec3 y = x + d * (glm::dot(to.normal, to.triangles[0][0] - x) / slope);
+    const auto holds = [&](const Triangle& t) {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (glm::dot(to.normal, glm::cross(t[(k + 1) % 3] - t[k], y - t[k])) < 0) return false;
+      return true;
+    };
+    return std::any_of(to.triangles.begin(), to.triangles.end(), holds) && !blocked(x, y);
+  }
+
+  /// One ray: its share of F, whose mean over the points of the unit cube is F from `from`.
   double sample(Point u, std::vector<double>* angles) const {
-    const Triangle& from = p_triangles[choose(p_areas, p_area, &u[0])];
-    const Vec3 x = on_triangle(from, u[0], u[1]);
+    const Triangle& start = from.triangles[choose(from.areas, from.area, &u[0])];
+    const Vec3 x = on_triangle(start, u[0], u[1]);
     double total = 0;
     angles->clear();
-    for (const Triangle& t : q_triangles) {
+    for (const Triangle& t : to.triangles) {
       angles->push_back(solid_angle(glm::normalize(t[0] - x), glm::normalize(t[1] - x),
                                     glm::normalize(t[2] - x)));
       total += angles->back();
     }
     if (!(total > 0)) return 0;
+    if (total > kWideAngle) return seen_by_cosine(x, u[2], u[3]) ? 1 : 0;
     const std::size_t k = choose(*angles, total, &u[2]);
-    const Triangle& to = q_triangles[k];
+    const Triangle& aim = to.triangles[k];
     const double probability = (*angles)[k] / total;
     Vec3 y;
     double share;
     if ((*angles)[k] > kSmallAngle) {
-      const Vec3 d = in_spherical_triangle(glm::normalize(to[0] - x), glm::normalize(to[1] - x),
-                                           glm::normalize(to[2] - x), (*angles)[k], u[2], u[3]);
-      y = x + d * (glm::dot(q_normal, to[0] - x) / glm::dot(q_normal, d));
-      share = glm::dot(p_normal, d) * total;
+      const Vec3 d = in_spherical_triangle(glm::normalize(aim[0] - x), glm::normalize(aim[1] - x),
+                                           glm::normalize(aim[2] - x), (*angles)[k], u[2], u[3]);
+      y = x + d * (glm::dot(to.normal, aim[0] - x) / glm::dot(to.normal, d));
+      share = glm::dot(from.normal, d) * total;
     } else {
-      y = on_triangle(to, u[2], u[3]);
+      y = on_triangle(aim, u[2], u[3]);
       const Vec3 r = y - x;
       const double r2 = glm::dot(r, r);
-      const double area = 0.5 * glm::length(glm::cross(to[1] - to[0], to[2] - to[0]));
-      share = -glm::dot(p_normal, r) * glm::dot(q_normal, r) / r2 * (area / r2) / probability;
+      const double area = 0.5 * glm::length(glm::cross(aim[1] - aim[0], aim[2] - aim[0]));
+      share = -glm::dot(from.normal, r) * glm::dot(to.normal, r) / r2 * (area / r2) / probability;
     }
     if (!(share > 0) || blocked(x, y)) return 0;
     return share * std::numbers::inv_pi;
@@ -178,15 +206,18 @@ double area_of(const Triangle& t) {
   return 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
 }
 
-/// Triangles of the part in front of a plane; cut first, clipped then, so that no loop touches
-/// itself.
-std::vector<Triangle> clipped_triangles(const Polygon& polygon, const Moments& plane) {
-  std::vector<Triangle> result;
+/// The part in front of a plane; cut first, clipped then, so that no loop touches itself.
+Side clipped_side(const Polygon& polygon, const Vec3& normal, const Moments& plane) {
+  Side result;
+  result.normal = normal;
   for (const Triangle& t : triangulate(polygon)) {
     const Loop loop = clip({{t[0], t[1], t[2]}, {}}, plane.centroid, plane.normal).outer;
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
       const Triangle piece = {loop[0], loop[k], loop[k + 1]};
-      if (area_of(piece) > 0) result.push_back(piece);
+      if (!(area_of(piece) > 0)) continue;
+      result.triangles.push_back(piece);
+      result.areas.push_back(area_of(piece));
+      result.area += result.areas.back();
     }
   }
   return result;
@@ -201,19 +232,17 @@ bool segment_hits(const Vec3& a, const Vec3& b, const Polygon& polygon) {
 Estimate monte_carlo(const Polygon& p, const Polygon& q, std::int64_t samples,
                      const std::vector<Polygon>& blockers, std::uint64_t seed) {
   if (samples < 1) throw Error(std::to_string(samples) + " samples; at least 1 is needed");
-  if (clip_to_front(p, q).empty()) return {0, 0};
-  const Moments mp = moments(p);
-  const Moments mq = moments(q);
+  const Polygon first = standard_order(p);
+  const Polygon second = standard_order(q);
+  if (clip_to_front(first, second).empty()) return {0, 0};
+  const Moments mp = moments(first);
+  const Moments mq = moments(second);
   Scene scene;
-  scene.p_triangles = clipped_triangles(p, mq);
-  scene.q_triangles = clipped_triangles(q, mp);
-  if (scene.p_triangles.empty() || scene.q_triangles.empty()) return {0, 0};
-  scene.p_normal = mp.normal;
-  scene.q_normal = mq.normal;
-  for (const Triangle& t : scene.p_triangles) {
-    scene.p_areas.push_back(area_of(t));
-    scene.p_area += scene.p_areas.back();
-  }
+  scene.from = clipped_side(first, mp.normal, mq);
+  scene.to = clipped_side(second, mq.normal, mp);
+  if (scene.from.triangles.empty() || scene.to.triangles.empty()) return {0, 0};
+  // From the smaller one: most rays of a large polygon start where a small one is nearly nothing.
+  if (scene.from.area > scene.to.area) std::swap(scene.from, scene.to);
   for (const Polygon& blocker : blockers) scene.blockers.emplace_back(blocker);
 
   const int replicates = static_cast<int>(std::min<std::int64_t>(kReplicates, samples));
@@ -232,7 +261,7 @@ Estimate monte_carlo(const Polygon& p, const Polygon& q, std::int64_t samples,
   const double mean = sum / replicates;
   const double variance =
       std::max(0.0, squares / replicates - mean * mean) / std::max(1, replicates - 1);
-  Estimate result{std::min(1.0, mean * scene.p_area / mp.area)};
+  Estimate result{std::min(1.0, mean * scene.from.area / mp.area)};
   if (replicates > 1 && mean > 0) result.relative_error = std::sqrt(variance) / mean;
   return result;
 }
