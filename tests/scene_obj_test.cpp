@@ -73,6 +73,25 @@ TEST_CASE("texture and normal indices, CRLF, blanks and names with spaces are re
   CHECK(scene.material_of(0).name == "my lamp");
 }
 
+TEST_CASE("a byte-order mark, comments behind statements and continued lines are read") {
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string obj =
+      mark + "mtllib room.mtl # materials\nv 0 0 0 # corner\nv 1 \\\n 0 0\nv 1 1 0\nv 0 1 0\n" +
+      "# a comment ends here \\\nusemtl my lamp#1\t# not the name\nf 1 2 \\\r\n 3 \\\r\n4 # "
+      "floor\r\n" +
+      "f 4 3 2 1";
+  const std::string mtl = mark + "newmtl my lamp#1 # name\nKd .5 \\\n .5 .5 # grey\nKe 1 1 1#1\n";
+  check_message(message(obj, mtl), "room.mtl:4: ", "'1#1'");
+  const host::Scene scene = parse(obj, mtl.substr(0, mtl.size() - 3));
+  CHECK(scene.patches.size() == 2);
+  CHECK(scene.material_of(0).name == "my lamp#1");
+  CHECK(scene.material_of(0).exitance == Vec3(1));
+  // Statements keep the line on which they begin, whatever they take in.
+  check_message(message(obj + "\nf 1 2 9 # no such\n", mtl.substr(0, mtl.size() - 3)),
+                "room.obj:13: ", "vertex 9");
+  CHECK(message(obj + " \\", mtl.substr(0, mtl.size() - 3)) == "no error");
+}
+
 TEST_CASE("every bad OBJ and MTL gets one sentence with file and line") {
   const std::string bad_vertex =
       "mtllib room.mtl\nv 0 0 0\nv nan 0 0\nv 0 1 0\nusemtl lamp\nf 1 2 3\n";

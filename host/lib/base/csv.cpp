@@ -10,6 +10,13 @@
 namespace host {
 namespace {
 
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlanks = " \t";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
 std::string place(const std::string& name, std::size_t line) {
   return name + ":" + std::to_string(line) + ": ";
 }
@@ -105,7 +112,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name, CsvRows rows)
   Reader reader(text, name);
   CsvRow row;
   if (!reader.next(&row)) throw Error(name + ":1: empty; the first line must name the columns");
-  table.header = row.cells;
+  for (const std::string& title : row.cells) table.header.push_back(trimmed(title));
   for (auto title = table.header.begin(); title != table.header.end(); ++title)
     if (std::find(table.header.begin(), title, *title) != title)
       throw Error(place(name, row.line) + "the column '" + *title + "' is there twice");

@@ -27,10 +27,9 @@ struct CsvTable {
 };
 
 /// Splits `text`: commas, double quotes ("" inside is one quote), LF or CRLF, an optional UTF-8
-/// mark. Blank lines are skipped. Throws Error for a missing header, a title twice, a wrong cell
-/// count or an open quote.
-/// Ragged: rows of another cell count are kept as they are, for tables of which a bad row must not
-/// stop the run.
+/// mark, blanks around the titles of columns. Blank lines are skipped. Throws Error for a missing
+/// header, a title twice, a wrong cell count or an open quote. Ragged: rows of another cell count
+/// are kept as they are, for tables of which a bad row must not stop the run.
 enum class CsvRows { strict, ragged };
 CsvTable parse_csv(std::string_view text, const std::string& name, CsvRows rows = CsvRows::strict);
 

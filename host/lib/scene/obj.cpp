@@ -33,7 +33,7 @@ Library read_libraries(const ObjLines& obj, const std::string& file,
     } catch (const Error& error) {
       throw Error(fmt::format("{}:{}: mtllib: {}", file, line, error.what()));
     }
-    for (const auto& [material, lines] : index_mtl(text, name)) {
+    for (const auto& [material, lines] : index_mtl(plain_lines(text), name)) {
       const auto [other, fresh] = library.emplace(material, LibraryMaterial{name, lines});
       if (!fresh)
         throw Error(fmt::format("{}:{}: material '{}' stands in {}:{} already", name, lines.line,
@@ -102,8 +102,9 @@ std::vector<Loop> loops_of(const tinyobj::ObjReader& reader, const ObjLines& lin
 
 }  // namespace
 
-Scene parse_obj(const std::string& text, const std::string& name, const MeshOptions& options,
+Scene parse_obj(const std::string& given, const std::string& name, const MeshOptions& options,
                 const std::function<std::string(const std::string&)>& library_text) {
+  const std::string text = plain_lines(given);
   const ObjLines lines = index_obj(text, name);
   const Library library = read_libraries(lines, name, library_text);
   std::vector<Material> materials;

@@ -148,7 +148,38 @@ std::optional<std::array<int, 2>> read_counts(const std::vector<std::string_view
   return counts;
 }
 
+/// Without a comment at its end; a line that is a comment stays, urad reads some of them.
+std::string_view without_comment(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlank);
+  for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
+    if (at > 0 && at != first && kBlank.find(line[at - 1]) != kBlank.npos)
+      return line.substr(0, at);
+  return line;
+}
+
 }  // namespace
+
+std::string plain_lines(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  std::string plain;
+  plain.reserve(text.size() + 1);
+  std::size_t joined = 0;  // lines that the one in work has taken in
+  each_line(text, [&](std::size_t, std::string_view line) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::size_t first = line.find_first_not_of(kBlank);
+    const bool comment = joined == 0 && first != line.npos && line[first] == '#';
+    line = without_comment(line);
+    if (!comment && line.ends_with('\\')) {
+      plain.append(line.substr(0, line.size() - 1)) += ' ';
+      ++joined;
+      return;
+    }
+    plain.append(line).append(joined + 1, '\n');
+    joined = 0;
+  });
+  return plain.append(joined, '\n');
+}
 
 ObjLines index_obj(std::string_view text, const std::string& file) {
   ObjLines found;

@@ -34,9 +34,14 @@ struct MtlLines {
   Vec3 kd{0}, ke{0};
 };
 
-/// Throws Error: a vertex that is not three finite numbers, a face of fewer than 3 vertices or
-/// before any usemtl, a malformed camera or grid comment, no vertex or no face at all (what a file
-/// of another kind looks like).
+/// The same lines in plain form, every statement on the line on which it begins: no UTF-8 mark, no
+/// carriage returns, no comments behind a statement, and what `\` continues in one line (blank ones
+/// follow, so that the numbers stay). A comment on its own line is kept, and never continued.
+std::string plain_lines(std::string_view text);
+
+/// Both take plain lines. Throws Error: a vertex that is not three finite numbers, a face of fewer
+/// than 3 vertices or before any usemtl, a malformed camera or grid comment, no vertex or no face
+/// at all (what a file of another kind looks like).
 ObjLines index_obj(std::string_view text, const std::string& file);
 
 /// By material name. Throws Error: Kd or Ke that are not three finite numbers, a name twice, Kd or
