@@ -217,3 +217,30 @@ TEST_CASE("solve writes the solution, the rows and the report of the cube") {
   }
   CHECK(host::read_file(path("report.json")).find("\"exact\": true") != std::string::npos);
 }
+
+TEST_CASE("outputs of one name are refused; when one cannot be written, none is") {
+  const fs::path folder = scratch("outputs");
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  const std::string solve = "solve cube7 --method fixed-moment ";
+  const Outcome twice =
+      urad(solve + "--out " + path("b.csv") + " --rows " + folder.string() + "/./b.csv");
+  CHECK(twice.status == 2);
+  CHECK(twice.text.find("--out and --rows") != std::string::npos);
+  const Outcome failed = urad(solve + "--shots 1 --rows " + path("rows.csv") + " --report " +
+                              path("r.json") + " --out " + path("none/b.csv"));
+  CHECK(failed.status == 1);
+  CHECK(failed.text.find("none/b.csv") != std::string::npos);
+  CHECK(fs::is_empty(folder));
+}
+
+TEST_CASE("train names the checkpoint that was altered") {
+  const fs::path folder = scratch("altered");
+  const std::string net = (folder / "net.json").string();
+  host::write_file_atomically(net + ".partial",
+                              "{\"format\":\"urad-training 2\",\"command\":\"urad train --scene "
+                              "cube7 --hidden 4 --seed 1\"}");
+  const Outcome outcome = urad("train --scene cube7 --seed 1 -o " + net);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.text.find("net.json.partial: ") != std::string::npos);
+  CHECK_FALSE(fs::exists(net));
+}

@@ -47,6 +47,18 @@ TEST_CASE("cells, quotes, line ends and line numbers") {
   CHECK(parse_csv("a,b\n1,2", "t.csv").rows.size() == 1);
 }
 
+TEST_CASE("titles with blanks around them, a byte-order mark or CRLF are the same titles") {
+  for (const char* text : {"id , p,\tq\na,b,c\n", "\xEF\xBB\xBF id,p ,q\r\na,b,c\r\n",
+                           "\xEF\xBB\xBF\"id\",\" p\",q \na,b,c\n"}) {
+    const CsvTable table = parse_csv(text, "t.csv");
+    CHECK(table.column("id") == 0);
+    CHECK(table.column("p") == 1);
+    CHECK(table.column("q") == 2);
+    CHECK(table.rows.at(0).cells == std::vector<std::string>{"a", "b", "c"});
+  }
+  CHECK(complaint("a, a\n") == "t.csv:1: the column 'a' is there twice");
+}
+
 TEST_CASE("tables that cannot be read name the line") {
   CHECK(complaint("").find("t.csv:1: empty") == 0);
   CHECK(complaint("a,b\n1,2\n1,2,3\n").find("t.csv:3: 3 cells; the header has 2") == 0);
@@ -82,6 +94,34 @@ TEST_CASE("a file is written whole or not at all") {
                   host::Error);
   CHECK_THROWS_AS(host::read_file((folder / "none").string()), host::Error);
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
+  fs::remove_all(folder);
+}
+
+TEST_CASE("files of one run appear together or not at all") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(URAD_SCRATCH_DIR) / "csv_test_together";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "folder");
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  host::write_file_atomically(path("a"), "old");
+  for (const char* bad : {"none/c", "folder"})
+    CHECK_THROWS_AS(
+        host::write_files_atomically({{path("a"), "1"}, {path("b"), "2"}, {path(bad), "3"}}),
+        host::Error);
+  CHECK(host::read_file(path("a")) == "old");
+  CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
+  host::write_files_atomically({{path("a"), "1"}, {path("b"), "2"}});
+  CHECK(host::read_file(path("a")) + host::read_file(path("b")) == "12");
+  fs::create_symlink(path("a"), path("link"));
+  const std::string roundabout = path("folder") + "/../a";
+  for (const std::string& other : {path("a"), path("link"), roundabout})
+    CHECK_THROWS_AS(host::expect_different_files({{"--out", path("a")}, {"--rows", other}}),
+                    host::UsageError);
+  CHECK_THROWS_AS(host::expect_different_files({{"--out", "-"}, {"--rows", "-"}}),
+                  host::UsageError);
+  CHECK_THROWS_AS(host::expect_different_files({{"--out", "no_file"}, {"--rows", "./no_file"}}),
+                  host::UsageError);
+  host::expect_different_files({{"--out", path("a")}, {"--rows", ""}, {"--report", ""}});
   fs::remove_all(folder);
 }
 

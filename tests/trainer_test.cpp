@@ -112,7 +112,8 @@ TEST_CASE("a training that is stopped and resumed through its file ends with the
       return ++steps < stop_after;
     };
     REQUIRE_FALSE(host::train(set, {}, settings(3), hooks));
-    const auto read = host::checkpoint_from_json(host::to_json(saved), saved.command);
+    const auto read =
+        host::checkpoint_from_json(host::to_json(saved), saved.command, "net.json.partial");
     REQUIRE(read);
     host::TrainerHooks rest;
     rest.resume = read->state;
@@ -122,13 +123,33 @@ TEST_CASE("a training that is stopped and resumed through its file ends with the
   }
 }
 
-TEST_CASE("a checkpoint of another command, or damaged, is of no use") {
+TEST_CASE("a checkpoint of another command, or cut short, is of no use") {
   host::Checkpoint saved;
   saved.command = "urad train --seed 1";
   const std::string text = host::to_json(saved);
-  CHECK(host::checkpoint_from_json(text, "urad train --seed 1"));
-  CHECK_FALSE(host::checkpoint_from_json(text, "urad train --seed 2"));
-  CHECK_FALSE(host::checkpoint_from_json(text.substr(0, text.size() / 2), "urad train --seed 1"));
+  const auto read = [](const std::string& checkpoint, const char* command) {
+    return host::checkpoint_from_json(checkpoint, command, "net.json.partial");
+  };
+  CHECK(read(text, "urad train --seed 1"));
+  CHECK_FALSE(read(text, "urad train --seed 2"));
+  CHECK_FALSE(read(text.substr(0, text.size() / 2), "urad train --seed 1"));
+  CHECK_FALSE(read("[]", "urad train --seed 1"));
+}
+
+TEST_CASE("an altered checkpoint is refused by name: it would end in another net") {
+  host::Checkpoint saved;
+  saved.command = "urad train";
+  saved.finished = {{0.25, -1.5}};
+  saved.state.candidates.push_back({0, {1, 2}, {3, 4}, 5, 6, 7, false});
+  const std::string text = host::to_json(saved);
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"0.25", "0.35"}, {"\"stage\":0", "\"stage\":9"}, {"[3.0,4.0]", "\"x\""}}) {
+    std::string altered = text;
+    REQUIRE(altered.find(from) != std::string::npos);
+    altered.replace(altered.find(from), from.size(), to);
+    CHECK_THROWS_WITH_AS(host::checkpoint_from_json(altered, "urad train", "net.json.partial"),
+                         doctest::Contains("net.json.partial: "), host::Error);
+  }
 }
 
 TEST_CASE("only the parameters that are free move") {

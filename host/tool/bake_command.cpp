@@ -112,14 +112,13 @@ std::vector<host::Fact> network_facts(const host::NetFile* file) {
   return result;
 }
 
-void write_method(const fs::path& folder, const host::Scene& scene,
-                  const host::MethodResult& method, const host::CornerMesh& mesh, double white) {
+void add_method(const fs::path& folder, const host::Scene& scene, const host::MethodResult& method,
+                const host::CornerMesh& mesh, double white, std::vector<host::OutputFile>* files) {
   const std::string stem = (folder / file_of(method.name)).string();
-  host::write_file_atomically(stem + ".png", method.pictures.smooth);
-  if (!method.pictures.difference.empty()) {
-    host::write_file_atomically(stem + "_difference.png", method.pictures.difference);
-  }
-  host::write_file_atomically(stem + ".ply", host::ply(scene, mesh, method.B, white));
+  files->push_back({stem + ".png", method.pictures.smooth});
+  if (!method.pictures.difference.empty())
+    files->push_back({stem + "_difference.png", method.pictures.difference});
+  files->push_back({stem + ".ply", host::ply(scene, mesh, method.B, white)});
 }
 
 void run(const Options& options, const Common& common) {
@@ -184,18 +183,20 @@ void run(const Options& options, const Common& common) {
   host::add_pictures(scene, pictures, &report);
   const host::CornerMesh mesh = host::merge_corners(scene);
   const double white = host::white_level(scene, solver.exact().radiosity);
+  std::vector<host::OutputFile> files;
   for (const host::MethodResult& method : report.methods) {
-    write_method(folder, scene, method, mesh, white);
+    add_method(folder, scene, method, mesh, white, &files);
     report.files.push_back(
         {file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
   }
   if (!light.empty()) {
-    host::write_file_atomically((folder / "scene.h").string(), scene_arrays);
-    host::write_file_atomically((folder / "light.h").string(), light);
+    files.push_back({(folder / "scene.h").string(), scene_arrays});
+    files.push_back({(folder / "light.h").string(), light});
     report.files.push_back({"scene.h, light.h", "the scene and its light as C arrays"});
   }
-  host::write_file_atomically((folder / "report.json").string(), host::report_json({report}));
-  host::write_file_atomically((folder / "report.html").string(), host::report_html({report}));
+  files.push_back({(folder / "report.json").string(), host::report_json({report})});
+  files.push_back({(folder / "report.html").string(), host::report_html({report})});
+  host::write_files_atomically(files);
 }
 
 }  // namespace

@@ -17,15 +17,19 @@ struct Options {
 };
 
 void run(const Options& options) {
+  host::expect_different_files({{"--out", options.out}, {"--manifest", options.manifest}});
   const std::string text = host::read_file(options.net);
   const host::NetFile file = host::net_from_json(text, options.net);
   const std::string name = host::net_name(options.out), digest = host::sha256(text);
-  host::write_file_atomically(options.out, host::net_to_c(file, name, options.bits, digest));
-  if (options.manifest.empty()) return;
-  const std::string old =
-      std::filesystem::exists(options.manifest) ? host::read_file(options.manifest) : "";
-  host::write_file_atomically(options.manifest,
-                              host::update_manifest(old, file, name, options.bits, digest));
+  std::vector<host::OutputFile> files{
+      {options.out, host::net_to_c(file, name, options.bits, digest)}};
+  if (!options.manifest.empty()) {
+    const std::string old =
+        std::filesystem::exists(options.manifest) ? host::read_file(options.manifest) : "";
+    files.push_back(
+        {options.manifest, host::update_manifest(old, file, name, options.bits, digest)});
+  }
+  host::write_files_atomically(files);
 }
 
 }  // namespace

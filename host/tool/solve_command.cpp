@@ -61,6 +61,9 @@ void refuse(const std::string& scene, urad_status status) {
 }
 
 void run(const Options& options, const Common& common) {
+  host::expect_different_files(
+      {{"--out", options.out}, {"--rows", options.rows}, {"--report", options.report}});
+  std::vector<host::OutputFile> files;
   const Nets nets(options.net);
   const host::MethodSpec spec = host::parse_method(options.method);
   const host::Scene scene = options.scene.load();
@@ -68,14 +71,13 @@ void run(const Options& options, const Common& common) {
   if (spec.name == "exact") {
     const host::ExactSolution& exact = solver.exact();
     if (!options.rows.empty()) {
-      host::write_file_atomically(options.rows,
-                                  rows_table(scene, [&](std::size_t i, std::size_t j) {
-                                    return exact.form_factors(Eigen::Index(i), Eigen::Index(j));
-                                  }));
+      files.push_back({options.rows, rows_table(scene, [&](std::size_t i, std::size_t j) {
+                         return exact.form_factors(Eigen::Index(i), Eigen::Index(j));
+                       })});
     }
-    if (!options.report.empty())
-      host::write_file_atomically(options.report, host::exact_json(scene, exact));
-    host::write_file_atomically(options.out, radiosity_table(scene, exact.radiosity));
+    if (!options.report.empty()) files.push_back({options.report, host::exact_json(scene, exact)});
+    files.push_back({options.out, radiosity_table(scene, exact.radiosity)});
+    host::write_files_atomically(files);
     return;
   }
   host::SolveGoal goal;
@@ -90,14 +92,11 @@ void run(const Options& options, const Common& common) {
         "lower reflectance or --shots N would do",
         options.scene.name, result.solution.shots, 100 * result.solution.error));
   }
-  if (!options.rows.empty()) {
-    host::write_file_atomically(options.rows, rows_table(scene, [&](std::size_t i, std::size_t j) {
-                                  return result.rows(i, j);
-                                }));
-  }
+  if (!options.rows.empty()) files.push_back({options.rows, rows_table(scene, result.rows)});
   if (!options.report.empty())
-    host::write_file_atomically(options.report, host::solve_json(scene, spec.text(), result));
-  host::write_file_atomically(options.out, radiosity_table(scene, result.solution.radiosity));
+    files.push_back({options.report, host::solve_json(scene, spec.text(), result)});
+  files.push_back({options.out, radiosity_table(scene, result.solution.radiosity)});
+  host::write_files_atomically(files);
   if (!common.quiet) {
     fmt::print(stderr,
                "{} by {}: {} shots, B within {:.3g} % rms of the converged and {:.3g} % of the "

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <memory>
 
 #include "base/error.hpp"
 
@@ -21,11 +22,74 @@ std::string slurp(std::istream& in) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return a == b;
+  std::error_code none;
+  return fs::equivalent(a, b, none) || fs::weakly_canonical(fs::absolute(a, none), none) ==
+                                           fs::weakly_canonical(fs::absolute(b, none), none);
+}
+
+/// Writes one file beside its place, and puts it there when all others are written, too.
+class Replacement {
+ public:
+  Replacement(std::string path, std::string_view content)
+      : path_(std::move(path)), content_(content) {
+    if (path_ == "-") return;
+    // A link is followed to what it names; devices and pipes have no name to swap and are written
+    // as they are.
+    std::error_code none;
+    real_ = (fs::exists(path_, none) ? fs::canonical(path_, none) : fs::path(path_)).string();
+    if (fs::is_directory(real_, none)) throw Error(path_ + ": cannot be written (it is a folder)");
+    if (fs::exists(real_, none) && !fs::is_regular_file(real_, none)) return;
+    // The process number keeps two runs that write the same file apart.
+    beside_ = real_ + ".part" + std::to_string(::getpid());
+    try {
+      write(beside_);
+    } catch (...) {
+      std::remove(beside_.c_str());
+      throw;
+    }
+  }
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+  ~Replacement() {
+    if (!beside_.empty()) std::remove(beside_.c_str());
+  }
+
+  bool has_name() const { return !beside_.empty(); }
+  void stream() const {
+    if (path_ != "-") return write(real_);
+    if (!std::cout.write(content_.data(), size()).flush()) throw Error("standard output is closed");
+  }
+  void rename() {
+    if (std::rename(beside_.c_str(), real_.c_str()) != 0) fail("replaced");
+    beside_.clear();
+  }
+
+ private:
+  std::streamsize size() const { return static_cast<std::streamsize>(content_.size()); }
+  [[noreturn]] void fail(const char* what) const {
+    throw Error(path_ + ": cannot be " + what + " (" + std::strerror(errno) + ")");
+  }
+  void write(const std::string& to) const {
+    std::ofstream out(to, std::ios::binary | std::ios::trunc);
+    if (out) {
+      out.write(content_.data(), size());
+      out.close();
+    }
+    if (!out) fail("written");
+  }
+
+  std::string path_, real_, beside_;  // beside_ is empty for what has no name to swap
+  std::string_view content_;
+};
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
   if (path == "-") return slurp(std::cin);
-  if (fs::is_directory(path)) throw Error(path + ": cannot be read (it is a folder)");
+  std::error_code none;
+  if (fs::is_directory(path, none)) throw Error(path + ": cannot be read (it is a folder)");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path + ": cannot be read (" + std::strerror(errno) + ")");
   std::string content = slurp(in);
@@ -33,33 +97,27 @@ std::string read_file(const std::string& path) {
   return content;
 }
 
+void expect_different_files(const std::vector<NamedPath>& paths) {
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      if (!paths[k].path.empty() && !paths[j].path.empty() &&
+          same_file(paths[k].path, paths[j].path))
+        throw UsageError(paths[j].option + " and " + paths[k].option + " both name " +
+                         paths[k].path + "; give each a file of its own");
+}
+
+void write_files_atomically(const std::vector<OutputFile>& files) {
+  std::vector<std::unique_ptr<Replacement>> written;
+  for (const OutputFile& file : files)
+    written.push_back(std::make_unique<Replacement>(file.path, file.content));
+  for (const auto& file : written)
+    if (!file->has_name()) file->stream();
+  for (const auto& file : written)
+    if (file->has_name()) file->rename();
+}
+
 void write_file_atomically(const std::string& path, std::string_view content) {
-  const auto size = static_cast<std::streamsize>(content.size());
-  if (path == "-") {
-    if (!std::cout.write(content.data(), size).flush()) throw Error("standard output is closed");
-    return;
-  }
-  const auto fail = [&](const std::string& beside, const char* what) {
-    const std::string why = std::strerror(errno);
-    if (!beside.empty()) std::remove(beside.c_str());
-    throw Error(path + ": cannot be " + what + " (" + why + ")");
-  };
-  const auto write = [&](const std::string& to, const std::string& beside) {
-    std::ofstream out(to, std::ios::binary | std::ios::trunc);
-    if (!out) fail(beside, "written");
-    out.write(content.data(), size);
-    out.close();
-    if (!out) fail(beside, "written");
-  };
-  // A link is followed to what it names; devices and pipes have no name to swap and are written as
-  // they are.
-  std::error_code none;
-  const fs::path real = fs::exists(path, none) ? fs::canonical(path, none) : fs::path(path);
-  if (fs::exists(real, none) && !fs::is_regular_file(real, none)) return write(real.string(), "");
-  // The process number keeps two runs that write the same file apart.
-  const std::string beside = real.string() + ".part" + std::to_string(::getpid());
-  write(beside, beside);
-  if (std::rename(beside.c_str(), real.c_str()) != 0) fail(beside, "replaced");
+  write_files_atomically({{path, std::string(content)}});
 }
 
 }  // namespace host

@@ -19,7 +19,9 @@ struct Checkpoint {
 std::string to_json(const Checkpoint& checkpoint);
 
 /// Nothing when the text is none of ours or belongs to another command: training then starts from
-/// the beginning.
-std::optional<Checkpoint> checkpoint_from_json(const std::string& text, const std::string& command);
+/// the beginning. Throws Error, which begins with `where`, when it has been altered since it was
+/// written.
+std::optional<Checkpoint> checkpoint_from_json(const std::string& text, const std::string& command,
+                                               const std::string& where);
 
 }  // namespace host

@@ -41,7 +41,8 @@ class Session {
   Session(const TrainRequest& request, int trainings) : request_(request), trainings_(trainings) {
     checkpoint_.command = request.command;
     if (request.checkpoint.empty() || !std::filesystem::exists(request.checkpoint)) return;
-    if (auto found = checkpoint_from_json(read_file(request.checkpoint), request.command)) {
+    if (auto found = checkpoint_from_json(read_file(request.checkpoint), request.command,
+                                          request.checkpoint)) {
       checkpoint_ = *found;
       resumed_ = true;
     }
@@ -55,7 +56,7 @@ class Session {
     if (number < checkpoint_.finished.size()) {
       const std::vector<double>& p = checkpoint_.finished[number];
       if (p.size() != std::size_t(net.parameters.size()))
-        throw Error(request_.checkpoint + " belongs to another training: delete it");
+        throw Error(request_.checkpoint + ": belongs to another training; delete it");
       net.parameters = Eigen::Map<const Eigen::VectorXd>(p.data(), Eigen::Index(p.size()));
       return net;
     }
@@ -74,7 +75,7 @@ class Session {
       }
       return !stop;
     };
-    const auto trained = host::train(training, validation, settings, hooks);
+    const auto trained = run(training, validation, settings, hooks);
     if (!trained) return std::nullopt;
     const Eigen::VectorXd& p = trained->parameters;
     checkpoint_.finished.emplace_back(p.data(), p.data() + p.size());
@@ -87,6 +88,16 @@ class Session {
   }
 
  private:
+  std::optional<FloatNet> run(const TrainingSet& training, const TrainingSet& validation,
+                              const TrainerSettings& settings, const TrainerHooks& hooks) const {
+    try {
+      return host::train(training, validation, settings, hooks);
+    } catch (const Error& error) {
+      if (!hooks.resume) throw;
+      throw Error(request_.checkpoint + ": " + error.what());
+    }
+  }
+
   void save() const {
     if (!request_.checkpoint.empty())
       write_file_atomically(request_.checkpoint, to_json(checkpoint_));
