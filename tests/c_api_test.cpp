@@ -55,10 +55,10 @@ struct FacingSquares {
 TEST_CASE("C: scene and net checks") {
   FacingSquares squares;
   CHECK(urad_scene_check(&squares.scene) == URAD_OK);
-  CHECK(urad_scene_check(nullptr) != URAD_OK);
+  CHECK(urad_scene_check(nullptr) == URAD_BAD_SCENE);
   squares.scene.abi = 77;
   CHECK(urad_scene_check(&squares.scene) == URAD_BAD_SCENE);
-  CHECK(urad_net_check(nullptr) != URAD_OK);
+  CHECK(urad_net_check(nullptr) == URAD_BAD_NET);
   const urad_net empty{};
   CHECK(urad_net_check(&empty) == URAD_BAD_NET);
 }

@@ -88,7 +88,7 @@ TEST_CASE("sizes, null pointers and shifts out of range are bad nets") {
     own.net.crc32 = 0;
     return urad::network_check(&own.net) == urad::Status::bad_net;
   };
-  CHECK(urad::network_check(nullptr) == urad::Status::bad_argument);
+  CHECK(urad::network_check(nullptr) == urad::Status::bad_net);
   CHECK(bad([](OwnNet& n) { n.net.abi = 2; }));
   CHECK(bad([](OwnNet& n) { n.net.inputs = 0; }));
   CHECK(bad([](OwnNet& n) { n.net.inputs = URAD_NET_MAX_INPUTS + 1; }));

@@ -82,7 +82,7 @@ uint32_t network_crc32(const urad_net& net) noexcept {
 }
 
 Status network_check(const urad_net* net) noexcept {
-  if (!net) return Status::bad_argument;
+  if (!net) return Status::bad_net;
   if (net->abi != URAD_NET_ABI || (net->flags & ~URAD_NET_PROVEN) || net->reserved) {
     return Status::bad_net;
   }

@@ -27,9 +27,13 @@ int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
 
 urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uint16_t first,
                       uint16_t count, uint32_t* f_uq32) noexcept {
+  if (!pair_source || !f_uq32) return URAD_BAD_ARGUMENT;
   const PairSource& source = *static_cast<const PairSource*>(pair_source);
   const urad_scene& scene = *source.scene;
+  if (shooter >= scene.patch_count || surface >= scene.surface_count) return URAD_BAD_ARGUMENT;
   const urad_surface& to = scene.surface[surface];
+  if (first < to.first_patch || first + count > to.first_patch + to.patch_count)
+    return URAD_BAD_ARGUMENT;
   const Patch from = patch_at(scene, shooter);
   const bool same = from.surface == &to && (to.flags & URAD_SURFACE_PLANAR);
   if (same && !(source.skips_off & skip_off_same)) {

@@ -83,7 +83,7 @@ bool good(const urad_scene& scene, const urad_blocker& blocker) noexcept {
 }  // namespace
 
 Status scene_check(const urad_scene* scene) noexcept {
-  if (!scene) return Status::bad_argument;
+  if (!scene) return Status::bad_scene;
   if (scene->abi != URAD_SCENE_ABI || scene->patch_count == 0 || !scene->surface ||
       !scene->material) {
     return Status::bad_scene;

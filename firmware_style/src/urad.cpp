@@ -24,6 +24,9 @@ bool pair_settings_fit(const urad_scene* scene, unsigned kernel, uint16_t rays) 
   return scene && kernel <= URAD_KERNEL_MOMENT && rays <= URAD_RAYS_MAX;
 }
 
+/// The inputs of another net would be read beyond those of a pair.
+bool reads_pairs(const urad_net* net) { return !net || net->inputs == urad::kPairInputs; }
+
 /// The object at the start of `memory`, or null if it does not fit there.
 template <typename Object>
 Object* place(void* memory, size_t bytes) {
@@ -64,6 +67,7 @@ urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to
                              urad_counters* counters) {
   if (!pair_settings_fit(scene, kernel, rays) || !f_uq32) return URAD_BAD_ARGUMENT;
   if (from >= scene->patch_count || to >= scene->patch_count) return URAD_BAD_ARGUMENT;
+  if (!reads_pairs(net)) return URAD_BAD_NET;
   urad_counters unread{};
   urad::PairSource pairs{scene, net, Kernel(kernel), rays, 0, counters ? counters : &unread};
   return urad::pair_fill(&pairs, from, urad::surface_of(*scene, to), to, 1, f_uq32);
@@ -77,6 +81,7 @@ urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, 
   if (!pair_settings_fit(scene, kernel, rays) || !source || !counters || !memory) {
     return URAD_BAD_ARGUMENT;
   }
+  if (!reads_pairs(net)) return URAD_BAD_NET;
   auto* const pairs = place<urad::PairSource>(memory, bytes);
   if (!pairs) return URAD_OUT_OF_MEMORY;
   *pairs = {scene, net, Kernel(kernel), rays, 0, counters};
@@ -118,6 +123,7 @@ urad_status urad_hybrid_source_init(urad_source* source, const urad_source* hemi
       kernel > URAD_KERNEL_MOMENT || !memory) {
     return URAD_BAD_ARGUMENT;
   }
+  if (!reads_pairs(net)) return URAD_BAD_NET;
   auto* const hybrid = place<urad::HybridSource>(memory, bytes);
   if (!hybrid) return URAD_OUT_OF_MEMORY;
   const Status status =

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   tool::add_evaluate(app, common);
   tool::add_accuracy(app, common);
   tool::add_reproduce(app, common);
+  tool::add_stress(app, common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {

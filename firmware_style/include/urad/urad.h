@@ -73,7 +73,7 @@ enum { URAD_KERNEL_CENTRE = 0, URAD_KERNEL_MOMENT = 1 };
  *   rays      visibility rays, 0 .. URAD_RAYS_MAX; 0: blockers are ignored. None if convex.
  *   f_uq32    one value, UQ0.32, saturating at 2^32 - 1; written on success
  *   counters  may be null; else counts are added to it
- * Failure: URAD_BAD_ARGUMENT. */
+ * Failure: URAD_BAD_ARGUMENT, URAD_BAD_NET (not of the inputs of a pair). */
 urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to, unsigned kernel,
                              const urad_net* net, uint16_t rays, uint32_t* f_uq32,
                              urad_counters* counters);
@@ -82,7 +82,8 @@ urad_status urad_form_factor(const urad_scene* scene, uint16_t from, uint16_t to
 /* Each init function lays an object out in `memory` and writes a urad_source that works on it.
  *   memory   aligned like a uint64_t, `bytes` long, at least the matching *_bytes()
  *   kept     memory, scene, net, counters, and what they point to
- * Failure: URAD_BAD_ARGUMENT, URAD_OUT_OF_MEMORY (too few bytes, or misaligned). */
+ * Failure: URAD_BAD_ARGUMENT, URAD_BAD_NET (not of the inputs of a pair), URAD_OUT_OF_MEMORY (too
+ * few bytes, or misaligned). */
 
 size_t urad_pair_source_bytes(void);
 

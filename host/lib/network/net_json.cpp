@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "urad/pair.hpp"
 
 namespace host {
 
@@ -137,6 +138,8 @@ int count_in(const Reader& reader, const char* key, int most) {
 FloatNet read_float(const Reader& reader) {
   const int inputs = count_in(reader, "inputs", URAD_NET_MAX_INPUTS);
   const int hidden = count_in(reader, "hidden", URAD_NET_MAX_HIDDEN);
+  if (inputs != urad::kPairInputs)
+    reader.fail(fmt::format("has {} inputs; a pair of patches has {}", inputs, urad::kPairInputs));
   FloatNet net(inputs, hidden);
   const auto put = [&](const char* key, int first, int count) {
     const std::vector<double> values = reader.numbers(key, std::size_t(count));

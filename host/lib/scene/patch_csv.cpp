@@ -63,8 +63,9 @@ Material material_of(const CsvTable& table, const CsvRow& row, const Columns& co
 
 }  // namespace
 
-Scene read_patch_csv(const std::string& path) {
-  const CsvTable table = read_csv(path);
+Scene read_patch_csv(const std::string& path) { return patch_csv_scene(read_csv(path)); }
+
+Scene patch_csv_scene(const CsvTable& table) {
   const Columns columns(table);
   std::vector<Material> materials;
   std::map<std::tuple<double, double, double, double, double, double>, int> known;

@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.hpp"
+#include "form_factor/monte_carlo.hpp"
+#include "form_factor/reference.hpp"
+#include "geometry/parse.hpp"
+#include "method/engine_source.hpp"
+#include "method/pair_method.hpp"
+#include "stress/attacks.hpp"
+#include "stress/hostile_pairs.hpp"
+
+namespace host {
+namespace {
+
+constexpr double kShown = std::numeric_limits<double>::infinity();  // measured, never a failure
+constexpr double kLeastFactor = 1e-6;  // relative errors count from here on
+constexpr double kLsb = 0x1p-32;       // of an engine's factor
+
+/// A method and the bounds that it is held to; relative, but for factors of the engine, whose last
+/// bit is free.
+struct Method {
+  std::string name;
+  double reciprocal, order;
+  bool integer;
+  FreePairMethod run;
+};
+
+std::vector<Method> methods(const NetChoice& nets) {
+  const struct {
+    const char* name;
+    double reciprocal, order;
+    bool integer;
+  } bounds[] = {
+      {"reference", 1e-9, 1e-9, false},      {"kernel", 1e-9, 1e-9, false},
+      {"moment", 1e-9, 1e-9, false},         {"lambert:2", kShown, 0, false},
+      {"gauss:2", 1e-9, 0, false},           {"monte-carlo:256", kShown, 0, false},
+      {"fixed-kernel", 1e-5, 1e-3, true},    {"fixed-moment", 1e-5, 1e-3, true},
+      {"fixed-lambert:2", 1e-5, 1e-3, true}, {"net", 1e-5, 1e-3, true},
+      {"hemicube:32", kShown, kShown, true},
+  };
+  std::vector<Method> all;
+  for (const auto& b : bounds)
+    all.push_back(
+        {b.name, b.reciprocal, b.order, b.integer, pair_method(parse_method(b.name), nets)});
+  return all;
+}
+
+/// |a - b| over the larger, less what the last bit of both explains.
+double relative(double a, double b, double free) {
+  const double off = std::max(0.0, std::abs(a - b) - free);
+  return off > 0 ? off / std::max(a, b) : 0;
+}
+
+/// Every loop written from another vertex, holes the other way round.
+Polygon rewritten(Polygon polygon) {
+  std::rotate(polygon.outer.begin(), polygon.outer.begin() + 1, polygon.outer.end());
+  for (Loop& hole : polygon.holes) {
+    std::reverse(hole.begin(), hole.end());
+    std::rotate(hole.begin(), hole.begin() + 1, hole.end());
+  }
+  std::reverse(polygon.holes.begin(), polygon.holes.end());
+  return polygon;
+}
+
+/// The factor, or nothing where the method says that it cannot.
+std::optional<Estimate> factor(const Method& method, const Polygon& p, const Polygon& q,
+                               Findings* findings) {
+  const PairResult result = method.run.run(p, q);
+  const std::string what = method.name + ": ";
+  if (result.status != "ok") {
+    findings->expect(what + "a factor, or unsupported",
+                     result.status.rfind("unsupported_", 0) == 0);
+    return std::nullopt;
+  }
+  const double f = result.estimate.f;
+  findings->expect(what + "finite, 0 to 1", f >= 0 && f <= 1);
+  return result.estimate;
+}
+
+void check_method(const Method& method, const PolygonPair& pair, double exact, double area_p,
+                  double area_q, Findings* findings) {
+  const std::optional<Estimate> there = factor(method, pair.p, pair.q, findings);
+  const std::optional<Estimate> back = factor(method, pair.q, pair.p, findings);
+  const std::optional<Estimate> again =
+      factor(method, rewritten(pair.p), rewritten(pair.q), findings);
+  if (!there || !back || !again) return;
+  const double bit = method.integer ? kLsb : 0;
+  const double free = bit * (area_p + area_q) + 1e-15 * std::min(area_p, area_q);
+  findings->measure(method.name + ": reciprocal",
+                    relative(there->f * area_p, back->f * area_q, free), method.reciprocal);
+  findings->measure(method.name + ": vertex order", relative(there->f, again->f, 2 * bit),
+                    method.order);
+  if (exact > kLeastFactor)
+    findings->measure(method.name + ": relative error, F > 1e-6", std::abs(there->f / exact - 1));
+}
+
+/// Standard errors between reference and sampling. Few samples have a scatter that is itself
+/// uncertain: what looks bad is sampled again, ever closer.
+double deviation(const PolygonPair& pair, double exact) {
+  double off = 0;
+  for (const std::int64_t samples : {1 << 8, 1 << 14, 1 << 20}) {
+    const Estimate e = monte_carlo(pair.p, pair.q, samples, {}, std::uint64_t(samples));
+    const double error = e.relative_error > 0 ? e.relative_error * e.f : 0;
+    off = std::abs(e.f - exact) / (error + 1e-6 * exact + 1e-15);
+    if (off < 5) break;
+  }
+  return off;
+}
+
+/// The cut of p by a plane through its centroid, across its longest reach.
+void check_split(const PolygonPair& pair, double exact, double area, Findings* findings) {
+  const Moments m = moments(pair.p);
+  Vec3 reach(0);
+  for (const Vec3& x : pair.p.outer)
+    if (glm::length(x - m.centroid) > glm::length(reach)) reach = x - m.centroid;
+  const Vec3 across = glm::normalize(reach);
+  double sum = 0, back = 0;
+  for (const Vec3& normal : {across, -across}) {
+    const Polygon part = clip(pair.p, m.centroid, normal);
+    if (part.outer.empty()) continue;
+    sum += reference_exchange(part, pair.q);
+    back += reference_form_factor(pair.q, part);
+  }
+  const double area_q = moments(pair.q).area, free = 1e-14 * std::min(area, area_q);
+  findings->measure("reference: area-weighted sum of a split patch",
+                    relative(sum, exact * area, free), 1e-8);
+  findings->measure("reference: sum over a split receiver",
+                    relative(back * area_q, exact * area, free), 1e-8);
+}
+
+/// The unobstructed factor, then growing blockers: every method must fall.
+void check_blockers(const PolygonPair& pair, const NetChoice& nets, Findings* findings) {
+  const double sizes[] = {0.05, 0.2, 0.8, 3};
+  double before = monte_carlo(pair.p, pair.q, 256).f;
+  for (const double size : sizes) {
+    const double f = monte_carlo(pair.p, pair.q, 256, {blocker_between(pair, 8, 0.5, size)}).f;
+    findings->measure("monte-carlo: growth with a blocker", std::max(0.0, f - before) / before,
+                      1e-12);
+    before = f;
+  }
+  for (const char* name : {"fixed-moment", "hemicube:32", "hybrid:32"}) {
+    try {
+      double last = 0;
+      for (std::size_t k = 0; k < std::size(sizes) + 1; ++k) {
+        std::vector<Polygon> blockers;
+        // One far behind both keeps the scene's unit; it blocks nothing.
+        if (k > 0) blockers.push_back(blocker_between(pair, 8, 0.5, sizes[k - 1]));
+        blockers.push_back(blocker_between(pair, 8, -3, sizes[3]));
+        const FixedScene scene = FixedScene::of_polygons({pair.p, pair.q}, blockers);
+        const EngineSource source(scene, parse_method(name), nets, {});
+        std::array<std::uint32_t, 2> row{};
+        source.row(0, row.data());
+        if (k > 0)
+          findings->measure(fmt::format("{}: growth with a blocker", name),
+                            relative(std::max(last, double(row[1])), last, 1), 1e-3);
+        last = row[1];
+      }
+    } catch (const Error&) {  // sizes that no common unit can hold
+    }
+  }
+}
+
+class PairCheck {
+ public:
+  explicit PairCheck(const NetChoice& nets) : nets_(nets), methods_(methods(nets_)) {}
+
+  void run(const std::string& input, Findings* findings) const {
+    const std::size_t end = input.find('\n');
+    PolygonPair pair;
+    if (end == input.npos || !read_polygon(input.substr(0, end), &pair.p) ||
+        !read_polygon(input.substr(end + 1), &pair.q))
+      throw Error("a case of pairs is two polygons in two lines");
+    const bool valid = validate(pair.p, pair.q) == PolygonStatus::ok;
+    if (!valid) return survive(pair, findings);
+    const double area_p = moments(pair.p).area, area_q = moments(pair.q).area;
+    const double exact = reference_form_factor(pair.p, pair.q);
+    for (const Method& method : methods_)
+      check_method(method, pair, exact, area_p, area_q, findings);
+    findings->measure("reference: standard errors from sampling", deviation(pair, exact), 8);
+    check_split(pair, exact, area_p, findings);
+    if (exact > 0) check_blockers(pair, nets_, findings);
+  }
+
+ private:
+  /// What the command refuses the library still has to live through.
+  void survive(const PolygonPair& pair, Findings* findings) const {
+    for (const Method& method : methods_)
+      for (const bool turned : {false, true})
+        factor(method, turned ? pair.q : pair.p, turned ? pair.p : pair.q, findings);
+    findings->measure("refused by the command", 1);
+  }
+
+  NetChoice nets_;
+  std::vector<Method> methods_;
+};
+
+}  // namespace
+
+std::vector<Attack> pair_attacks(const NetChoice& nets) {
+  const auto check = std::make_shared<PairCheck>(nets);
+  std::vector<Attack> attacks;
+  for (const HostileFamily& family : hostile_families())
+    attacks.push_back(
+        {"pairs", family.name,
+         [draw = family.draw](Random& random) {
+           const PolygonPair pair = draw(random);
+           return write_polygon(pair.p) + "\n" + write_polygon(pair.q);
+         },
+         [check](const std::string& input, Findings* findings) { check->run(input, findings); }});
+  return attacks;
+}
+
+}  // namespace host

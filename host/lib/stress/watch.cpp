@@ -1,0 +1,93 @@
+#include "stress/watch.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+namespace host {
+namespace {
+
+constexpr std::array kSignals = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+// What a signal handler may touch: pointers set before it can run.
+thread_local const std::string* t_case = nullptr;
+const char* g_crash_path = nullptr;
+
+/// System calls only.
+void write_case(const char* path, const std::string& text) {
+  const int file = ::open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file < 0) return;
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t written = ::write(file, text.data() + at, text.size() - at);
+    if (written <= 0) break;
+    at += std::size_t(written);
+  }
+  ::close(file);
+}
+
+void on_signal(int number) {
+  if (t_case && g_crash_path) write_case(g_crash_path, *t_case);
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+}  // namespace
+
+CaseWatch::CaseWatch(const std::string& folder, double most_seconds, std::size_t threads)
+    : folder_(folder.empty() ? "" : folder + "/crash.case"), slots_(threads) {
+  g_crash_path = folder_.empty() ? nullptr : folder_.c_str();
+  // Sanitizers have handlers that say more.
+#ifndef __SANITIZE_ADDRESS__
+  for (const int number : kSignals) std::signal(number, on_signal);
+#endif
+  watcher_ = std::thread([this, most_seconds] { watch(most_seconds); });
+}
+
+CaseWatch::~CaseWatch() {
+  {
+    const std::lock_guard<std::mutex> guard(lock_);
+    stop_ = true;
+  }
+  watcher_.join();
+#ifndef __SANITIZE_ADDRESS__
+  for (const int number : kSignals) std::signal(number, SIG_DFL);
+#endif
+  g_crash_path = nullptr;
+}
+
+void CaseWatch::begin(std::size_t thread, const std::string& text) {
+  const std::lock_guard<std::mutex> guard(lock_);
+  slots_[thread] = {&text, std::chrono::steady_clock::now()};
+  t_case = &text;
+}
+
+void CaseWatch::end(std::size_t thread) {
+  const std::lock_guard<std::mutex> guard(lock_);
+  slots_[thread].text = nullptr;
+  t_case = nullptr;
+}
+
+void CaseWatch::watch(double most_seconds) {
+  for (;;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const std::lock_guard<std::mutex> guard(lock_);
+    if (stop_) return;
+    const auto now = std::chrono::steady_clock::now();
+    for (const Slot& slot : slots_) {
+      if (!slot.text || std::chrono::duration<double>(now - slot.start).count() <= most_seconds)
+        continue;
+      const std::string path =
+          folder_.empty() ? "" : folder_.substr(0, folder_.size() - 10) + "hang.case";
+      if (!path.empty()) write_case(path.c_str(), *slot.text);
+      std::fprintf(stderr, "urad: stress: a case did not end within %.0f s%s%s\n", most_seconds,
+                   path.empty() ? "" : "; urad stress --replay ", path.c_str());
+      std::_Exit(1);
+    }
+  }
+}
+
+}  // namespace host
