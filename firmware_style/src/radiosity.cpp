@@ -80,12 +80,16 @@ void survey(Radiosity* s) noexcept {
   const int64_t others = s.ledger.unshot[channel] - unshot;
   const uint64_t all = magnitude(others);
   if (all >> 32) return unshot;
-  uint32_t gain = gain_uq16(effective_reflectance_uq16(s, channel));
+  const int32_t log2_share_q24 =
+      log2_area_of(surface, uint32_t(s.shooter - surface.first_patch)) - s.log2_area_q24;
+  // Light comes to this patch once: what it sends on again is in the shot already. A patch that is
+  // a large part of the scene would else be promised its returns many times.
+  const uint32_t rho_uq16 = effective_reflectance_uq16(s, channel);
+  const uint32_t own_uq16 = uint32_t((uint64_t{rho_uq16} * exp2_uq(log2_share_q24, 16)) >> 16);
+  uint32_t gain = gain_uq16(rho_uq16 > own_uq16 ? rho_uq16 - own_uq16 : 0);
   if (gain > kOvershootMost_uq16) gain = kOvershootMost_uq16;
   const uint64_t ambient = (all * gain) >> 16;
   if (ambient >> 40) return unshot;
-  const int32_t log2_share_q24 =
-      log2_area_of(surface, uint32_t(s.shooter - surface.first_patch)) - s.log2_area_q24;
   const uint64_t returns = (ambient * exp2_uq(log2_share_q24, 23)) >> 23;
   const uint64_t share =
       (returns * s.scene->material[surface.material].reflectance_uq15[channel]) >> 15;
@@ -186,9 +190,13 @@ urad_status shoot(Radiosity* s, Beam* beam, uint64_t* sum_uq32, bool* cut) noexc
 }
 
 /// Every patch_count shots |unshot| has to fall by 1/4096 at least. Overshooting may raise it
-/// first, where all patches emit: it fails only after four times in a row.
+/// first, where all patches emit, and makes it swing in a scene of few: it is looked at every 64
+/// shots at the earliest, and fails only after four times in a row.
 void guard(Radiosity* s) noexcept {
-  if (++s->window_shots < s->scene->patch_count) return;
+  constexpr uint16_t kSwing = 64;
+  const uint16_t patches = s->scene->patch_count;
+  const bool swings = (s->flags & URAD_OVERSHOOT) && patches < kSwing;
+  if (++s->window_shots < (swings ? kSwing : patches)) return;
   const uint64_t before = s->window_remaining;
   const bool falls = s->remaining + (before >> 12) < before || s->remaining == 0;
   s->window_shots = 0;

@@ -61,8 +61,8 @@ Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_sour
 ///   ledger holds and step may be called again, but B keeps the error of that part of a shot.
 /// - overflow: a patch has reached URAD_POWER_LIMIT. Nothing has wrapped, the ledger holds; the
 ///   status stays.
-/// - diverges: over patch_count shots (with overshooting, over that four times in a row) the sum of
-///   |unshot| fell by less than 1/4096; the status stays.
+/// - diverges: over patch_count shots (with overshooting over 64 at least, four times in a row) the
+///   sum of |unshot| fell by less than 1/4096; the status stays.
 ///
 /// Cost on a Cortex-M0, counted in the code: 23 instructions (-Os; -O2: 21) per receiver and
 /// channel, 36 per receiver for the sum of the row and the choice of the next shooter, and the
