@@ -8,6 +8,7 @@
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
+#include "urad/network.hpp"
 
 extern "C" {
 urad_status c99_solve(const urad_scene* scene, const urad_source* source, uint32_t* memory,
@@ -216,4 +217,33 @@ TEST_CASE("C: radiosity refuses nulls and what is out of range") {
   CHECK(b == doctest::Approx(room.material[0].exitance[0]).epsilon(1e-5));
   CHECK(urad_radiosity_display(&state, 53, 0, &b) == URAD_OK);
   CHECK(b == urad::radiosity_display(state, 53, 0));
+}
+
+TEST_CASE(
+    "C: a net of other inputs than those of a pair is refused, and so is a run out of range") {
+  const FacingSquares squares;
+  const int8_t weights[20] = {};
+  const int32_t bias[1] = {};
+  const urad_rescale rescale[1] = {{1, 17}};
+  const int16_t none[20] = {};
+  urad_net net{URAD_NET_ABI, 0,    20,      1,    8,    0, 0,       0,
+               weights,      bias, rescale, none, none, 0, {1, 17}, 0};
+  net.crc32 = urad::network_crc32(net);
+  REQUIRE(urad_net_check(&net) == URAD_OK);
+  uint32_t f[2] = {7, 7};
+  urad_counters counters{};
+  uint64_t memory[8];
+  urad_source source;
+  CHECK(urad_form_factor(&squares.scene, 0, 1, URAD_KERNEL_MOMENT, &net, 0, f, &counters) ==
+        URAD_BAD_NET);
+  CHECK(urad_pair_source_init(&source, &squares.scene, URAD_KERNEL_MOMENT, &net, 0, &counters,
+                              memory, sizeof memory) == URAD_BAD_NET);
+  REQUIRE(urad_pair_source_init(&source, &squares.scene, URAD_KERNEL_MOMENT, nullptr, 0, &counters,
+                                memory, sizeof memory) == URAD_OK);
+  CHECK(source.fill(source.context, 2, 0, 0, 1, f) == URAD_BAD_ARGUMENT);
+  CHECK(source.fill(source.context, 0, 2, 0, 1, f) == URAD_BAD_ARGUMENT);
+  CHECK(source.fill(source.context, 0, 1, 0, 1, f) == URAD_BAD_ARGUMENT);
+  CHECK(source.fill(source.context, 0, 1, 1, 2, f) == URAD_BAD_ARGUMENT);
+  CHECK(f[0] == 7);
+  CHECK(source.fill(source.context, 0, 1, 1, 1, f) == URAD_OK);
 }

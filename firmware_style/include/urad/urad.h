@@ -158,8 +158,8 @@ urad_status urad_radiosity_init(urad_radiosity* state, const urad_scene* scene,
  * done. Null: URAD_BAD_ARGUMENT. After any other failure the state is whole and its ledger holds:
  *   of the source  what was handed out before stays; step may be called again, B keeps the error
  *   URAD_OVERFLOW  a patch has reached URAD_POWER_LIMIT; nothing wrapped; the status stays
- *   URAD_DIVERGES  over patch_count shots (with URAD_OVERSHOOT, over that four times in a row) the
- *                  unshot power fell by less than 1/4096; the status stays */
+ *   URAD_DIVERGES  over patch_count shots (with URAD_OVERSHOOT over 64 at least, four times in a
+ *                  row) the unshot power fell by less than 1/4096; the status stays */
 urad_status urad_radiosity_step(urad_radiosity* state);
 
 /* 1 when the estimated relative error of B is at most error_uq32 (URAD_PERCENT), or the solve has
