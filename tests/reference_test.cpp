@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "form_factor/monte_carlo.hpp"
 #include "geometry/parse.hpp"
 #include "pair_families.hpp"
 
@@ -174,4 +175,42 @@ TEST_CASE("a hole takes away what its filling would have given") {
     const double part = reference_exchange(filling, other);
     CHECK(std::abs(reference_exchange(plate, other) + part - whole) < 1e-14);
   }
+}
+
+TEST_CASE(
+    "slivers that share an edge: two rules at the limit of what can be exchanged are no "
+    "agreement") {
+  // The area rules both ended at min(A), which looked like a result without error: 1 for 0.21.
+  const Polygon p{{{0.24237981683765497, 0.15795479427829018, 0.6723812879214818},
+                   {0.24238050552231913, 0.15794959185829013, 0.6723649507289993},
+                   {0.4238983980002649, -0.16970878861680483, 0.7843563533245436},
+                   {0.4238977093156008, -0.16970358619680476, 0.7843726905170261}},
+                  {}};
+  const Polygon q{{{0.24237981683765497, 0.15795479427829018, 0.6723812879214818},
+                   {0.4238977093156008, -0.16970358619680476, 0.7843726905170261},
+                   {0.4238828331177263, -0.16970982970876897, 0.7843785352252127},
+                   {0.2423649406397805, 0.15794855076632594, 0.6723871326296684}},
+                  {}};
+  const host::Estimate reference = host::reference_estimate(p, q);
+  const host::Estimate sampled = host::monte_carlo(p, q, 1 << 16);
+  CHECK(std::abs(reference.f - sampled.f) < 5 * sampled.relative_error * sampled.f);
+  CHECK(reference.relative_error < 1e-3);
+}
+
+TEST_CASE(
+    "from a huge to a tiny polygon that grazes it: sums over the edges of the huge one cancel") {
+  const Polygon tiny{{{0.2715128059699292, 1.0287228409813378, 0.7570909632462918},
+                      {0.27151280714766757, 1.0287228390429108, 0.7570909633271315},
+                      {0.2715128014433523, 1.028722836121632, 0.7570909763839105},
+                      {0.271512800265614, 1.0287228380600588, 0.7570909763030709}},
+                     {}};
+  const Polygon huge{{{0.9790874248911342, 0.3746390252148649, 0.07979238670973499},
+                      {0.36644496134167037, 0.08308898905971768, 1.457840864621345},
+                      {4.790023177179335, -8.709959439854488, 1.5641203394280543},
+                      {5.402665640728799, -8.418409403699341, 0.18607186151644434}},
+                     {}};
+  const host::Estimate reference = host::reference_estimate(tiny, huge);
+  const host::Estimate sampled = host::monte_carlo(tiny, huge, 1 << 16);
+  CHECK(reference.f == doctest::Approx(2.26e-9).epsilon(1e-3));
+  CHECK(std::abs(reference.f - sampled.f) < 5 * sampled.relative_error * sampled.f);
 }

@@ -31,7 +31,7 @@ double gauss_exchange(const Polygon& given_p, const Polygon& given_q, int n) {
 
 Estimate gauss_estimate(const Polygon& p, const Polygon& q, int n) {
   const double exchange = gauss_exchange(p, q, n);
-  return {exchange > 0 ? std::min(1.0, exchange / moments(p).area) : 0.0};
+  return {exchange > 0 ? std::min(1.0, exchange / moments(standard_order(p)).area) : 0.0};
 }
 
 }  // namespace host

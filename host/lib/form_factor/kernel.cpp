@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "form_factor/facing.hpp"
+#include "geometry/order.hpp"
 
 namespace host {
 namespace {
@@ -21,7 +22,7 @@ double second_order(const Moments& patch, const Vec3& other_normal, const Vec3& 
 using Kernel = double (*)(const Moments&, const Moments&);
 
 double clipped_exchange(const Polygon& p, const Polygon& q, Kernel kernel) {
-  const FacingPair pair = clip_to_front(p, q);
+  const FacingPair pair = clip_to_front(standard_order(p), standard_order(q));
   if (pair.empty()) return 0;
   const Moments i = moments(pair.p);
   const Moments j = moments(pair.q);
@@ -29,7 +30,7 @@ double clipped_exchange(const Polygon& p, const Polygon& q, Kernel kernel) {
 }
 
 double form_factor(const Polygon& p, double exchange) {
-  return exchange > 0 ? std::min(1.0, exchange / moments(p).area) : 0.0;
+  return exchange > 0 ? std::min(1.0, exchange / moments(standard_order(p)).area) : 0.0;
 }
 
 }  // namespace

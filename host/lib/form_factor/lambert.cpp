@@ -61,7 +61,7 @@ double lambert_exchange(const Polygon& given_p, const Polygon& given_q, int n) {
 
 Estimate lambert_estimate(const Polygon& p, const Polygon& q, int n) {
   const double exchange = lambert_exchange(p, q, n);
-  return {exchange > 0 ? std::min(1.0, exchange / moments(p).area) : 0.0};
+  return {exchange > 0 ? std::min(1.0, exchange / moments(standard_order(p)).area) : 0.0};
 }
 
 }  // namespace host

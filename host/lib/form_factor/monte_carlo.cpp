@@ -232,8 +232,10 @@ bool segment_hits(const Vec3& a, const Vec3& b, const Polygon& polygon) {
 Estimate monte_carlo(const Polygon& p, const Polygon& q, std::int64_t samples,
                      const std::vector<Polygon>& blockers, std::uint64_t seed) {
   if (samples < 1) throw Error(std::to_string(samples) + " samples; at least 1 is needed");
-  const Polygon first = standard_order(p);
-  const Polygon second = standard_order(q);
+  Polygon first = standard_order(p);
+  Polygon second = standard_order(q);
+  const double area = moments(first).area;
+  if (written_before(second, first)) std::swap(first, second);
   if (clip_to_front(first, second).empty()) return {0, 0};
   const Moments mp = moments(first);
   const Moments mq = moments(second);
@@ -261,7 +263,7 @@ Estimate monte_carlo(const Polygon& p, const Polygon& q, std::int64_t samples,
   const double mean = sum / replicates;
   const double variance =
       std::max(0.0, squares / replicates - mean * mean) / std::max(1, replicates - 1);
-  Estimate result{std::min(1.0, mean * scene.from.area / mp.area)};
+  Estimate result{std::min(1.0, std::min(1.0, mean) * (scene.from.area / area))};
   if (replicates > 1 && mean > 0) result.relative_error = std::sqrt(variance) / mean;
   return result;
 }

@@ -10,4 +10,8 @@ namespace host {
 /// last bit.
 Polygon standard_order(const Polygon& polygon);
 
+/// One order for each unordered pair, the same at every scale: what does not care which of the two
+/// comes first is then symmetric bit for bit. Both in standard order.
+bool written_before(const Polygon& p, const Polygon& q);
+
 }  // namespace host

@@ -11,6 +11,7 @@
 #include "form_factor/lambert.hpp"
 #include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
+#include "geometry/order.hpp"
 #include "method/engine_source.hpp"
 
 namespace host {
@@ -47,11 +48,14 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
         return PairResult{{}, "unsupported_too_many_vertices"};
     }
     try {
-      const FixedScene scene = FixedScene::of_polygons({p, q}, {});
+      const Polygon from = standard_order(p), to = standard_order(q);
+      const bool swapped = written_before(to, from);
+      const FixedScene scene =
+          FixedScene::of_polygons({swapped ? to : from, swapped ? from : to}, {});
       const EngineSource source(scene, spec, nets, {});
       std::array<std::uint32_t, 2> row{};
-      source.row(0, row.data());
-      return PairResult{{row[1] / 4294967296.0}};
+      source.row(swapped ? 1 : 0, row.data());
+      return PairResult{{row[swapped ? 0 : 1] / 4294967296.0}};
     } catch (const Error&) {  // sizes that no common unit can hold
       return PairResult{{}, "unsupported_range"};
     }
