@@ -56,7 +56,12 @@ void run(const Options& options, const Common& common) {
   if (!options.file.empty())
     return run_again(host::case_from_text(host::read_file(options.file), options.file),
                      options.file);
-  if (!options.one.empty()) return run_again(numbered_case(options), options.one);
+  if (!options.one.empty()) {
+    const host::StressCase one = numbered_case(options);
+    if (!options.folder.empty())
+      host::write_file_atomically(options.folder + "/one.case", host::to_text(one));
+    return run_again(one, options.one);
+  }
   host::StressRequest request;
   request.command = command_line(options);
   request.kinds = options.kinds;
@@ -94,7 +99,9 @@ void add_stress(CLI::App& app, const Common& common) {
   command->add_option("-o,--out", options->folder, "Folder for the failures");
   command->add_option("--document", options->document, "The table as Markdown");
   auto* file = command->add_option("--replay", options->file, "Run one failure again");
-  command->add_option("--case", options->one, "Run case FAMILY#N of this seed again")
+  command
+      ->add_option("--case", options->one,
+                   "Run case FAMILY#N of this seed again; with -o it is written to DIR/one.case")
       ->excludes(file);
   command->callback([options, &common] { run(*options, common); });
 }

@@ -7,6 +7,7 @@
 #include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
 #include "geometry/parse.hpp"
+#include "geometry/planar.hpp"
 #include "method/engine_source.hpp"
 #include "method/pair_method.hpp"
 #include "stress/attacks.hpp"
@@ -18,12 +19,13 @@ namespace {
 constexpr double kShown = std::numeric_limits<double>::infinity();  // measured, never a failure
 constexpr double kLeastFactor = 1e-6;  // relative errors count from here on
 constexpr double kLsb = 0x1p-32;       // of an engine's factor
+constexpr double kRounding = 1e-14;    // of the smaller area: below it a double has no digits left
 
 /// A method and the bounds that it is held to; relative, but for factors of the engine, whose last
 /// bit is free.
 struct Method {
   std::string name;
-  double reciprocal, order;
+  double reciprocal;
   bool integer;
   FreePairMethod run;
 };
@@ -31,20 +33,17 @@ struct Method {
 std::vector<Method> methods(const NetChoice& nets) {
   const struct {
     const char* name;
-    double reciprocal, order;
+    double reciprocal;
     bool integer;
   } bounds[] = {
-      {"reference", 1e-9, 1e-9, false},      {"kernel", 1e-9, 1e-9, false},
-      {"moment", 1e-9, 1e-9, false},         {"lambert:2", kShown, 0, false},
-      {"gauss:2", 1e-9, 0, false},           {"monte-carlo:256", kShown, 0, false},
-      {"fixed-kernel", 1e-5, 1e-3, true},    {"fixed-moment", 1e-5, 1e-3, true},
-      {"fixed-lambert:2", 1e-5, 1e-3, true}, {"net", 1e-5, 1e-3, true},
-      {"hemicube:32", kShown, kShown, true},
+      {"reference", 1e-9, false},   {"kernel", 1e-9, false},       {"moment", 1e-9, false},
+      {"lambert:2", kShown, false}, {"gauss:2", 1e-9, false},      {"monte-carlo:256", 1e-9, false},
+      {"fixed-kernel", 1e-5, true}, {"fixed-moment", 1e-5, true},  {"fixed-lambert:2", 1e-5, true},
+      {"net", 1e-5, true},          {"hemicube:32", kShown, true},
   };
   std::vector<Method> all;
   for (const auto& b : bounds)
-    all.push_back(
-        {b.name, b.reciprocal, b.order, b.integer, pair_method(parse_method(b.name), nets)});
+    all.push_back({b.name, b.reciprocal, b.integer, pair_method(parse_method(b.name), nets)});
   return all;
 }
 
@@ -88,47 +87,64 @@ void check_method(const Method& method, const PolygonPair& pair, double exact, d
       factor(method, rewritten(pair.p), rewritten(pair.q), findings);
   if (!there || !back || !again) return;
   const double bit = method.integer ? kLsb : 0;
-  const double free = bit * (area_p + area_q) + 1e-15 * std::min(area_p, area_q);
+  const double free = bit * (area_p + area_q) + kRounding * std::min(area_p, area_q);
   findings->measure(method.name + ": reciprocal",
                     relative(there->f * area_p, back->f * area_q, free), method.reciprocal);
-  findings->measure(method.name + ": vertex order", relative(there->f, again->f, 2 * bit),
-                    method.order);
+  findings->expect(method.name + ": the same from any vertex", there->f == again->f);
   if (exact > kLeastFactor)
     findings->measure(method.name + ": relative error, F > 1e-6", std::abs(there->f / exact - 1));
 }
 
 /// Standard errors between reference and sampling. Few samples have a scatter that is itself
 /// uncertain: what looks bad is sampled again, ever closer.
-double deviation(const PolygonPair& pair, double exact) {
+double deviation(const PolygonPair& pair, const Estimate& exact) {
   double off = 0;
   for (const std::int64_t samples : {1 << 8, 1 << 14, 1 << 20}) {
     const Estimate e = monte_carlo(pair.p, pair.q, samples, {}, std::uint64_t(samples));
     const double error = e.relative_error > 0 ? e.relative_error * e.f : 0;
-    off = std::abs(e.f - exact) / (error + 1e-6 * exact + 1e-15);
+    const double claimed = exact.relative_error * std::max(exact.f, e.f);
+    off = std::max(0.0, std::abs(e.f - exact.f) - claimed) / (error + 1e-6 * exact.f + 1e-15);
     if (off < 5) break;
   }
   return off;
 }
 
+/// What the rounding of coordinates leaves undetermined of the height of `other` over the plane of
+/// `polygon`, relative: the rounding itself, and its lever over the polygon's width.
+double loose(const Polygon& polygon, const Polygon& other) {
+  const Moments m = moments(polygon);
+  const Vec3 r = moments(other).centroid - m.centroid;
+  const double trace = m.second[0][0] + m.second[1][1] + m.second[2][2];
+  const double width = m.area / std::sqrt(12 * trace);
+  const double rounding = std::max(coordinate_rounding(polygon), coordinate_rounding(other));
+  return rounding * (1 + glm::length(r) / width) / std::abs(glm::dot(m.normal, r));
+}
+
 /// The cut of p by a plane through its centroid, across its longest reach.
-void check_split(const PolygonPair& pair, double exact, double area, Findings* findings) {
+void check_split(const PolygonPair& pair, const Estimate& exact, double area, Findings* findings) {
   const Moments m = moments(pair.p);
   Vec3 reach(0);
   for (const Vec3& x : pair.p.outer)
     if (glm::length(x - m.centroid) > glm::length(reach)) reach = x - m.centroid;
   const Vec3 across = glm::normalize(reach);
+  const double area_q = moments(pair.q).area;
+  const double smaller = std::min(area, area_q);
+  // A cut rounds new corners, and with them the planes.
+  const auto tilt = [&](const Polygon& p) { return 16 * (loose(p, pair.q) + loose(pair.q, p)); };
   double sum = 0, back = 0;
+  double claimed = kRounding * smaller + exact.f * (exact.relative_error + tilt(pair.p)) * area;
   for (const Vec3& normal : {across, -across}) {
     const Polygon part = clip(pair.p, m.centroid, normal);
     if (part.outer.empty()) continue;
-    sum += reference_exchange(part, pair.q);
-    back += reference_form_factor(pair.q, part);
+    const Estimate there = reference_estimate(part, pair.q);
+    sum += there.f * moments(part).area;
+    back += reference_form_factor(pair.q, part) * area_q;
+    claimed += there.f * (there.relative_error + tilt(part)) * moments(part).area;
   }
-  const double area_q = moments(pair.q).area, free = 1e-14 * std::min(area, area_q);
   findings->measure("reference: area-weighted sum of a split patch",
-                    relative(sum, exact * area, free), 1e-8);
-  findings->measure("reference: sum over a split receiver",
-                    relative(back * area_q, exact * area, free), 1e-8);
+                    relative(sum, exact.f * area, claimed), 1e-8);
+  findings->measure("reference: sum over a split receiver", relative(back, exact.f * area, claimed),
+                    1e-8);
 }
 
 /// The unobstructed factor, then growing blockers: every method must fall.
@@ -137,25 +153,28 @@ void check_blockers(const PolygonPair& pair, const NetChoice& nets, Findings* fi
   double before = monte_carlo(pair.p, pair.q, 256).f;
   for (const double size : sizes) {
     const double f = monte_carlo(pair.p, pair.q, 256, {blocker_between(pair, 8, 0.5, size)}).f;
-    findings->measure("monte-carlo: growth with a blocker", std::max(0.0, f - before) / before,
-                      1e-12);
+    findings->measure("monte-carlo: growth with a blocker",
+                      relative(std::max(f, before), before, 0), 1e-12);
     before = f;
   }
-  for (const char* name : {"fixed-moment", "hemicube:32", "hybrid:32"}) {
+  // Rays that leave a touching patch meet no blocker (urad/visibility.hpp): no bound for those two.
+  const std::pair<const char*, double> methods[] = {
+      {"fixed-moment", kShown}, {"hybrid:32", kShown}, {"hemicube:32", 1e-3}};
+  for (const auto& [name, limit] : methods) {
     try {
       double last = 0;
       for (std::size_t k = 0; k < std::size(sizes) + 1; ++k) {
         std::vector<Polygon> blockers;
-        // One far behind both keeps the scene's unit; it blocks nothing.
+        // A large one behind p is always there and keeps the scene's unit.
         if (k > 0) blockers.push_back(blocker_between(pair, 8, 0.5, sizes[k - 1]));
-        blockers.push_back(blocker_between(pair, 8, -3, sizes[3]));
+        blockers.push_back(blocker_between(pair, 8, -3, 3 * sizes[3]));
         const FixedScene scene = FixedScene::of_polygons({pair.p, pair.q}, blockers);
         const EngineSource source(scene, parse_method(name), nets, {});
         std::array<std::uint32_t, 2> row{};
         source.row(0, row.data());
         if (k > 0)
           findings->measure(fmt::format("{}: growth with a blocker", name),
-                            relative(std::max(last, double(row[1])), last, 1), 1e-3);
+                            relative(std::max(last, double(row[1])), last, 1), limit);
         last = row[1];
       }
     } catch (const Error&) {  // sizes that no common unit can hold
@@ -176,12 +195,13 @@ class PairCheck {
     const bool valid = validate(pair.p, pair.q) == PolygonStatus::ok;
     if (!valid) return survive(pair, findings);
     const double area_p = moments(pair.p).area, area_q = moments(pair.q).area;
-    const double exact = reference_form_factor(pair.p, pair.q);
+    const Estimate exact = reference_estimate(pair.p, pair.q);
     for (const Method& method : methods_)
-      check_method(method, pair, exact, area_p, area_q, findings);
+      check_method(method, pair, exact.f, area_p, area_q, findings);
     findings->measure("reference: standard errors from sampling", deviation(pair, exact), 8);
+    findings->measure("reference: relative error it claims", exact.relative_error);
     check_split(pair, exact, area_p, findings);
-    if (exact > 0) check_blockers(pair, nets_, findings);
+    if (exact.f > 0) check_blockers(pair, nets_, findings);
   }
 
  private:

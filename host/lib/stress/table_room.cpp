@@ -46,7 +46,7 @@ void TableRoom::fill_reciprocal(double sum, Random& random) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j)
       if (i / each() != j / each()) g(i, j) = g(j, i) = std::pow(random.uniform(), 4) + 1e-3;
-  for (int sweep = 0; sweep < 300; ++sweep)
+  for (int sweep = 0; sweep < 100; ++sweep)
     for (int i = 0; i < n; ++i) {
       const double total = g.row(i).sum();
       if (!(total > 0)) continue;
