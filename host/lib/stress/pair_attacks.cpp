@@ -20,6 +20,7 @@ constexpr double kShown = std::numeric_limits<double>::infinity();  // measured,
 constexpr double kLeastFactor = 1e-6;  // relative errors count from here on
 constexpr double kLsb = 0x1p-32;       // of an engine's factor
 constexpr double kRounding = 1e-14;    // of the smaller area: below it a double has no digits left
+constexpr double kSplitRounding = 1e-11;  // the same for sums over cut polygons, slivers among them
 
 /// A method and the bounds that it is held to; relative, but for factors of the engine, whose last
 /// bit is free.
@@ -132,7 +133,8 @@ void check_split(const PolygonPair& pair, const Estimate& exact, double area, Fi
   // A cut rounds new corners, and with them the planes.
   const auto tilt = [&](const Polygon& p) { return 16 * (loose(p, pair.q) + loose(pair.q, p)); };
   double sum = 0, back = 0;
-  double claimed = kRounding * smaller + exact.f * (exact.relative_error + tilt(pair.p)) * area;
+  double claimed =
+      kSplitRounding * smaller + exact.f * (exact.relative_error + tilt(pair.p)) * area;
   for (const Vec3& normal : {across, -across}) {
     const Polygon part = clip(pair.p, m.centroid, normal);
     if (part.outer.empty()) continue;
