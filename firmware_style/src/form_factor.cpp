@@ -1,6 +1,6 @@
 #include "urad/form_factor.hpp"
 
-#include "urad/clip.hpp"
+#include "pair_cut.hpp"
 #include "urad/lambert.hpp"
 #include "urad/log2.hpp"
 #include "urad/network.hpp"
@@ -8,26 +8,6 @@
 namespace urad {
 
 namespace {
-
-/// A patch after the cut: its own shape, or the moments of what is left.
-struct Cut {
-  urad_shape shape;
-  urad_point centroid;
-  bool clipped;
-};
-
-/// False when nothing of `patch` lies in front of the plane. `cut` is filled only where a cut was
-/// needed.
-bool cut_to_front(const urad_scene& scene, const Patch& patch, const PatchPlane& plane,
-                  Cut* cut) noexcept {
-  const Side side = side_of_plane(scene, patch, plane.on, plane.normal_q30);
-  cut->clipped = side == Side::both;
-  if (side == Side::behind) return false;
-  return side == Side::front ||
-         clipped_shape(scene, patch, plane.on, plane.normal_q30, &cut->shape, &cut->centroid);
-}
-
-int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 
 /// log2 K plus the network's word on it, never above log2 of the smaller area: F <= 1 both ways.
 int32_t corrected_q24(const PairKernel& pair, Kernel kernel, const urad_net* net,
@@ -51,25 +31,6 @@ int32_t corrected_q24(const PairKernel& pair, Kernel kernel, const urad_net* net
 /// Where kernel and network cannot be right, and the net says so.
 bool handed_over(const PairKernel& pair, bool clipped, const urad_net* net) noexcept {
   return net && net->near_rho_uq16 && (clipped || pair.rho_uq16 > net->near_rho_uq16);
-}
-
-/// The parts of two patches in front of each other. Shapes live as long as the kernel terms that
-/// point to them.
-struct Cuts {
-  Cut i, j;
-};
-
-bool clipped_kernel(const urad_scene& scene, const Patch& i, const Patch& j, Cuts* cuts,
-                    PairKernel* kernel, int32_t* limit_q24, bool* clipped) noexcept {
-  if (!cut_to_front(scene, i, plane_of(j), &cuts->i) ||
-      !cut_to_front(scene, j, plane_of(i), &cuts->j))
-    return false;
-  const urad_shape& shape_i = cuts->i.clipped ? cuts->i.shape : *i.shape;
-  const urad_shape& shape_j = cuts->j.clipped ? cuts->j.shape : *j.shape;
-  *clipped = cuts->i.clipped || cuts->j.clipped;
-  *limit_q24 = least(shape_i.log2_area_q24, shape_j.log2_area_q24);
-  return pair_kernel(shape_i, cuts->i.clipped ? cuts->i.centroid : i.centroid, shape_j,
-                     cuts->j.clipped ? cuts->j.centroid : j.centroid, kernel);
 }
 
 int32_t no_exchange(urad_counters* counters) noexcept {

@@ -42,7 +42,8 @@ void add_formfactor(CLI::App& app, const Common& common) {
       ->add_option(
           "--method", options->methods,
           "M[,M...]: reference, closed-form, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, "
-          "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R; with "
+          "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], auto[:ERROR], "
+          "hemicube:R; with "
           "--scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
@@ -50,7 +51,7 @@ void add_formfactor(CLI::App& app, const Common& common) {
   sources->add_option("--scene", options->scene,
                       "CSV with columns scene, role (P, Q or B), polygon");
   sources->require_option(1);
-  command->add_option("--net", options->net, "JSON of the network for method net");
+  command->add_option("--net", options->net, "JSON of the network for methods net and auto");
   command->add_option("--subdivide", options->subdivide, "Cut P into about N x N pieces (--scene)")
       ->check(CLI::Range(1, 256));
   command->add_option("--out", options->out, "CSV to write (\"-\": standard output)")->required();

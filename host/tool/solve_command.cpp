@@ -114,10 +114,11 @@ void add_solve(CLI::App& app, const Common& common) {
   options->scene.add_to(command);
   command
       ->add_option("--method", options->method,
-                   "exact, net[:NAME], fixed-kernel, fixed-moment, hemicube:R, hybrid[:R], or a "
+                   "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, hemicube:R, "
+                   "hybrid[:R], or a "
                    "pair method in double")
       ->required();
-  command->add_option("--net", options->net, "JSON of the network for net and hybrid");
+  command->add_option("--net", options->net, "JSON of the network for net, auto and hybrid");
   auto* shots = command->add_option("--shots", options->shots, "Stop after N shots")
                     ->check(CLI::PositiveNumber);
   command

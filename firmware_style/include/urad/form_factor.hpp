@@ -45,6 +45,10 @@ int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch&
 /// F = G / A as UQ0.32, rounded, saturating at 2^32 - 1.
 uint32_t form_factor_uq32(int32_t log2_exchange_q24, int32_t log2_area_q24) noexcept;
 
+struct PairSource;
+/// log2 G of a pair for a source that has a way of its own, as exchange_log2_q24().
+using PairExchange = int32_t (*)(const PairSource& source, const Patch& i, const Patch& j) noexcept;
+
 /// A source (source.h) that evaluates pairs, times the visible fraction by rays where the scene is
 /// not convex.
 struct PairSource {
@@ -55,6 +59,9 @@ struct PairSource {
   uint32_t skips_off;       ///< SkipOff bits
   urad_counters* counters;  ///< never null
   uint8_t points = 0;  ///< 1 .. 4: every pair by the exact sum at so many points squared; 0: none
+  int16_t log2_error_q8 = 0;        ///< for `exchange`: log2 of the relative error to stay below
+  PairExchange exchange = nullptr;  ///< not null: every pair by this, as by cheapest_of_source()
+  uint32_t* ways = nullptr;         ///< for `exchange`: counts of ways taken, or null
 };
 
 /// urad_fill for a PairSource: bad_argument on a bad index, else ok.

@@ -40,4 +40,31 @@ uint32_t point_factor_uq30(const urad_scene& scene, const urad_point& x,
 int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j,
                                   int points) noexcept;
 
+/// A sum and how much it doubts itself.
+struct LambertSum {
+  int32_t log2_exchange_q24;  ///< log2 G, or kNoExchange
+  int32_t log2_doubt_q24;  ///< log2 of an unscaled relative error: cheapest.hpp makes it an error
+  uint16_t cells;
+};
+
+/// What a sum without doubt says.
+inline constexpr int32_t kNoDoubt_q24 = -(64 << 24);
+inline constexpr int kMostRefinedCells = 64;
+
+/// One rule of points x points on each whole piece, 1 to 3 points.
+///   Doubt     with 3 points second differences b along both sides as b (b/sum)^3; with 2 points
+///             differences, by the sum; with 1 point there is none
+LambertSum lambert_whole(const urad_scene& scene, const Patch& i, const Patch& j,
+                         int points) noexcept;
+
+/// Pieces by 3 x 3 points; then the most doubtful cell is halved until all doubts together are at
+/// most 2^log2_doubt of the sum, or 64 cells have been measured [adaptive cubature: van Dooren and
+/// de Ridder 1976]. Carrier, cut and pieces as above: (i, j) and (j, i) give the same bits.
+///   Doubt     of a cell: its second differences b along both sides as b (b/sum)^3, but at least
+///             2^-5 of its greatest factor where an edge or vertex of the other is near by the
+///             cell's size, and at least 2^-2 of what the halving that made it changed
+///   Memory    24 cells of 32 bytes on the stack; the least doubtful drop out, their doubt stays
+LambertSum lambert_refined(const urad_scene& scene, const Patch& i, const Patch& j,
+                           int32_t log2_doubt_q24) noexcept;
+
 }  // namespace urad

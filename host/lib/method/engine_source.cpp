@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 
 #include "base/error.hpp"
@@ -22,8 +23,8 @@ namespace {
 
 constexpr int kDefaultHemicube = 64;
 
-constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert",
-                                       "net",          "hemicube",     "hybrid"};
+constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert", "net",
+                                       "auto",         "hemicube",     "hybrid"};
 
 void add(urad_counters* sum, const urad_counters& part) {
   auto* to = reinterpret_cast<std::uint32_t*>(sum);
@@ -64,6 +65,7 @@ struct HemicubeHolder {
 struct EngineSource::State {
   const urad_scene* scene = nullptr;
   urad_counters counters{};
+  std::array<std::uint32_t, urad::kWays> ways{};
   urad::PairSource pairs{};
   HemicubeHolder hemicube;
   urad::HybridSource hybrid{};
@@ -74,6 +76,13 @@ struct EngineSource::State {
     pairs = {scene, net, kernel, std::uint16_t(options.rays), options.skips, &counters, 0};
     source = {urad::pair_fill, &pairs};
     ram = sizeof pairs;
+  }
+
+  void use_cheapest(std::int16_t log2_error_q8, const urad_net* net, const EngineOptions& options) {
+    use_pairs(urad::Kernel::moment, net, options);
+    pairs.log2_error_q8 = log2_error_q8;
+    pairs.exchange = urad::cheapest_of_source;
+    pairs.ways = ways.data();
   }
 
   void use_hemicube(int resolution, bool coverage) {
@@ -95,6 +104,10 @@ struct EngineSource::State {
   }
 };
 
+std::int16_t auto_error_q8(const MethodSpec& spec) {
+  return std::int16_t(std::floor(256 * std::log2(spec.real(0.01, 1e-6, 0.5))));
+}
+
 bool is_engine_method(const MethodSpec& spec) {
   return std::find(kEngineMethods.begin(), kEngineMethods.end(), spec.name) != kEngineMethods.end();
 }
@@ -114,6 +127,8 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
     state_->pairs.points = std::uint8_t(spec.number(1, 1, urad::kMostLambertPoints));
   } else if (spec.name == "net") {
     state_->use_pairs(urad::Kernel::moment, &nets.find(spec.argument), options);
+  } else if (spec.name == "auto") {
+    state_->use_cheapest(auto_error_q8(spec), nets.general(), options);
   } else if (spec.name == "hemicube") {
     state_->use_hemicube(
         spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
@@ -136,6 +151,7 @@ const urad_counters& EngineSource::counters() const { return state_->counters; }
 const urad::PairSource* EngineSource::pairs() const {
   return state_->source.fill == urad::pair_fill ? &state_->pairs : nullptr;
 }
+const std::array<std::uint32_t, urad::kWays>& EngineSource::ways() const { return state_->ways; }
 std::size_t EngineSource::ram_bytes() const { return state_->ram; }
 
 void EngineSource::row(std::uint16_t shooter, std::uint32_t* f_uq32) const {
@@ -206,6 +222,7 @@ EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const Ne
     }
     const std::lock_guard<std::mutex> guard(sum);
     add(&rows.counters, source.counters());
+    for (std::size_t k = 0; k < rows.ways.size(); ++k) rows.ways[k] += source.ways()[k];
     rows.seconds += since(start);
   });
   return rows;

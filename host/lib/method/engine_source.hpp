@@ -1,5 +1,6 @@
 // The engine's factor sources by name, on the host: the same integers as on a chip.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "method/nets.hpp"
 #include "method/spec.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/cheapest.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/source.h"
 
@@ -20,10 +22,14 @@ struct EngineOptions {
 /// True for the methods that run in the engine's integers.
 bool is_engine_method(const MethodSpec& spec);
 
+/// The ERROR of auto[:ERROR] as the engine wants it, log2 in Q7.8, rounded down. Throws Error.
+std::int16_t auto_error_q8(const MethodSpec& spec);
+
 /// A source over one scene, with all its memory. One per thread; `scene` and `nets` must outlive
 /// it.
 ///   fixed-kernel, fixed-moment,      pairs, times the visible fraction by rays
-///   fixed-lambert:N, net[:NAME]
+///   fixed-lambert:N, net[:NAME],
+///   auto[:ERROR]
 ///   hemicube:R                       turned; without item buffer in a convex scene
 ///   hybrid[:R]                       occluded: the network's factor times the visible fraction of the
 ///                                    hemicube; convex: the network's for pairs closer than three
@@ -40,6 +46,8 @@ class EngineSource {
   const urad_counters& counters() const;
   /// The engine's own source, where it goes pair by pair; else null.
   const urad::PairSource* pairs() const;
+  /// Pairs by the way that auto took (urad::Way); zeros for other methods.
+  const std::array<std::uint32_t, urad::kWays>& ways() const;
   /// Memory the source itself needs on a chip, without the solver's.
   std::size_t ram_bytes() const;
   /// Row of factors of one shooter. Throws Error when the engine refuses.
@@ -69,6 +77,7 @@ struct EngineRows {
   std::size_t patches = 0;
   std::vector<std::uint32_t> f_uq32;
   urad_counters counters{};
+  std::array<std::uint32_t, urad::kWays> ways{};  ///< of auto
   std::size_t ram_bytes = 0;
   double seconds = 0;  ///< of all threads together
 

@@ -18,4 +18,9 @@ const urad_net& NetChoice::find(const std::string& name) const {
   return *net;
 }
 
+const urad_net* NetChoice::general() const {
+  if (file) return file;
+  return shipped ? shipped("general") : nullptr;
+}
+
 }  // namespace host

@@ -19,6 +19,8 @@ struct NetChoice {
   /// `net:NAME` is the shipped NAME; `net` is the file of --net or else the general network. Throws
   /// Error.
   const urad_net& find(const std::string& name) const;
+  /// The net that serves any scene: the file of --net, the shipped general one, or null.
+  const urad_net* general() const;
 };
 
 }  // namespace host

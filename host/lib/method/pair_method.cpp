@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "base/error.hpp"
@@ -34,13 +35,30 @@ PairResult by_closed_form(const Polygon& p, const Polygon& q) {
   return {result.estimate()};
 }
 
+/// The engine's cheapest way and what it thinks of it, the rounding of F included.
+Estimate cheapest(const urad_scene& scene, std::uint16_t shooter, const urad_net* net,
+                  std::int16_t log2_error_q8) {
+  urad_counters counters{};
+  const urad::Patch p = urad::patch_at(scene, shooter),
+                    q = urad::patch_at(scene, std::uint16_t(1 - shooter));
+  const urad::CheapestPair pair =
+      urad::cheapest_exchange(scene, p, q, net, log2_error_q8, &counters);
+  if (pair.way == urad::Way::none) return {0, 0};
+  const double f =
+      urad::form_factor_uq32(pair.log2_exchange_q24, p.shape->log2_area_q24) / 4294967296.0;
+  const double rounding = 0.5 / 4294967296.0;
+  return {f, std::exp2(pair.log2_error_q8 / 256.0) + (f > 0 ? rounding / f : 1)};
+}
+
 /// The pair as a scene of two surfaces, and one factor of its row: integers all the way.
 FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
   EngineSource(
       FixedScene::of_polygons(
           {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}}, {}),
       spec, nets, {});  // refuses a bad setting before the first pair
-  const auto run = [spec, &nets](const Polygon& p, const Polygon& q) {
+  const bool knows_error = spec.name == "auto";
+  const std::int16_t log2_error_q8 = knows_error ? auto_error_q8(spec) : std::int16_t{0};
+  const auto run = [spec, &nets, knows_error, log2_error_q8](const Polygon& p, const Polygon& q) {
     for (const Polygon* polygon : {&p, &q}) {
       std::size_t vertices = polygon->outer.size();
       for (const Loop& hole : polygon->holes) vertices += hole.size() + 2;
@@ -52,15 +70,18 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
       const bool swapped = written_before(to, from);
       const FixedScene scene =
           FixedScene::of_polygons({swapped ? to : from, swapped ? from : to}, {});
+      const std::uint16_t shooter = swapped ? 1 : 0;
+      if (knows_error)
+        return PairResult{cheapest(scene.pod(), shooter, nets.general(), log2_error_q8)};
       const EngineSource source(scene, spec, nets, {});
       std::array<std::uint32_t, 2> row{};
-      source.row(swapped ? 1 : 0, row.data());
-      return PairResult{{row[swapped ? 0 : 1] / 4294967296.0}};
+      source.row(shooter, row.data());
+      return PairResult{{row[1 - shooter] / 4294967296.0}};
     } catch (const Error&) {  // sizes that no common unit can hold
       return PairResult{{}, "unsupported_range"};
     }
   };
-  return {run, false};
+  return {run, knows_error};
 }
 
 using Maker = std::function<FreePairMethod(const MethodSpec&)>;
@@ -118,7 +139,8 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
     throw UsageError(
         fmt::format("--method {}: unknown; known are reference, closed-form, lambert:N, "
                     "gauss:N, monte-carlo:SAMPLES, kernel, "
-                    "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], hemicube:R",
+                    "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], "
+                    "auto[:ERROR], hemicube:R",
                     spec.text()));
   }
   return maker->second(spec);

@@ -20,6 +20,18 @@ int MethodSpec::number(int otherwise, int least, int most) const {
   return value;
 }
 
+double MethodSpec::real(double otherwise, double least, double most) const {
+  if (argument.empty()) return otherwise;
+  double value = 0;
+  const char* end = argument.data() + argument.size();
+  const auto [rest, failure] = std::from_chars(argument.data(), end, value);
+  if (failure != std::errc() || rest != end || !(value >= least && value <= most)) {
+    throw UsageError(fmt::format("--method {}: \"{}\" should be a number from {} to {}", text(),
+                                 argument, least, most));
+  }
+  return value;
+}
+
 void MethodSpec::expect_no_argument() const {
   if (!argument.empty())
     throw UsageError(fmt::format("--method {}: {} takes no value", text(), name));

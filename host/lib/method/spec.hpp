@@ -13,6 +13,8 @@ struct MethodSpec {
   /// The argument as a whole number in [least, most], or `otherwise` when there is none. Throws
   /// Error.
   int number(int otherwise, int least, int most) const;
+  /// The argument as a number in [least, most], or `otherwise` when there is none. Throws Error.
+  double real(double otherwise, double least, double most) const;
   /// For methods that take none. Throws UsageError when there is one.
   void expect_no_argument() const;
 };

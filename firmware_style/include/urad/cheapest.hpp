@@ -1,0 +1,85 @@
+// cheapest.hpp -- the cheapest way to a form factor that is accurate enough, and how accurate it
+// is.
+//
+//   kernel       moment kernel
+//   network      moment kernel times a general network, if there is one
+//   point        exact sum at the carrier's middle (of each of its pieces)              lambert.hpp
+//   four points  exact sum at 2 x 2 points of each piece
+//   nine points  exact sum at 3 x 3 points of each piece
+//   refined      exact sum at 3 x 3 points of cells, halved where they are in doubt
+//
+// in this order of cost. What a way is off by is estimated before it is gone, as a sum of
+// logarithms of what kernels know already:
+//
+//   log2 error = base + sum over the traits of weight log2(trait)
+//
+// with constants for each way and each class of pair, fitted to random pairs
+// (src/cheapest_models.hpp says how, and how well they hold on others). Sums correct their estimate
+// by how much they doubt themselves.
+#pragma once
+#include "urad/form_factor.hpp"
+
+namespace urad {
+
+enum class Way : uint8_t { none, kernel, network, point, four_points, nine_points, refined };
+inline constexpr int kWays = 7;
+
+/// What errors follow. Logarithms to base 2 in Q7.8; "carrier" is the patch that carries the
+/// points.
+enum Trait {
+  trait_bend_sum,      ///< sum over both of 2 s + 12 a s + 4 |c s/(m.w)|: T2 if nothing cancelled
+  trait_bend,          ///< |log2 of the bend|
+  trait_rho,           ///< rho
+  trait_cosine_least,  ///< the smaller of p and q
+  trait_cosine_most,   ///< the larger
+  trait_fill,          ///< the smaller fill: slivers
+  trait_size,          ///< the carrier's s
+  trait_slant,         ///< s / (m.w)^2 of the carrier: its size by its height above the other
+  trait_doubt,         ///< a sum's doubt in itself, 0 before there is one
+  kTraits
+};
+
+enum class PairClass : uint8_t {
+  symmetric,  ///< two parallelograms: odd moments vanish
+  lopsided,   ///< at least one of another shape
+  near,       ///< rho above 0.35: walls that meet, large plates
+  cut,        ///< at least one cut at the other's plane
+};
+inline constexpr int kPairClasses = 4;
+
+struct PairTraits {
+  int16_t log2_q8[kTraits];
+  PairClass pair_class;
+};
+
+/// log2 G (Q7.24, or kNoExchange), how it was found, and the estimate of log2 of its relative error
+/// (Q7.8): the true error is below it for 99 % of pairs of any kind.
+struct CheapestPair {
+  int32_t log2_exchange_q24;
+  int16_t log2_error_q8;
+  Way way;
+};
+
+/// The cheapest way whose estimate is at most 2^log2_error; if none is, the refined sum, which says
+/// what it reached. net null: without networks. (i, j) and (j, i) give the same bits. Counted as
+/// exchange_log2_q24() counts; a kernel alone counts as a far pair, a sum as a near one.
+///   Cost   a pair for which the kernel will do: the kernel, 8 log2, 8 products of 16 bits
+CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Patch& j,
+                               const urad_net* net, int16_t log2_error_q8,
+                               urad_counters* counters) noexcept;
+
+/// One way, whatever it costs and however wrong it is, and the traits of the pair: what constants
+/// are fitted to. log2_doubt_q24: where a refined sum stops. False when the pair exchanges nothing,
+/// or only its sum can tell (`traits` is then undefined).
+bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
+                 const urad_net* net, int32_t log2_doubt_q24, int32_t* log2_exchange_q24,
+                 PairTraits* traits) noexcept;
+
+/// For PairSource::exchange: the cheapest way below source.log2_error_q8, counted in
+/// source.ways[kWays] where that is not null.
+int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j) noexcept;
+
+/// log2 of a relative error as an estimate is written: 0.01 is -1701. 1e-6 <= error <= 1.
+inline constexpr int16_t kPercentError_q8 = -1701;
+
+}  // namespace urad

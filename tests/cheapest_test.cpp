@@ -1,0 +1,174 @@
+// The cheapest way to a form factor: as accurate as asked for, sure of its error, the same bits
+// both ways round. On test pairs, of which none served to fit its constants.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "accuracy/trial_pairs.hpp"
+#include "method/engine_source.hpp"
+#include "method/pair_method.hpp"
+#include "scene/builtin.hpp"
+#include "scene/fixed_scene.hpp"
+#include "solve/scene_solver.hpp"
+#include "urad/cheapest.hpp"
+#include "weights/general.h"
+
+namespace {
+
+constexpr std::uint64_t kSeed = 20090419;
+constexpr double kHundredth = 0.01;
+
+std::int16_t q8(double error) { return std::int16_t(std::floor(256 * std::log2(error))); }
+
+struct Answer {
+  double f = 0, estimate = 0;
+  urad::Way way = urad::Way::none;
+  std::int32_t log2_g_q24 = 0;
+};
+
+Answer answer(const host::FixedScene& scene, double error, const urad_net* net,
+              std::uint16_t i = 0) {
+  urad_counters counters{};
+  const urad::Patch p = urad::patch_at(scene.pod(), i);
+  const urad::Patch q = urad::patch_at(scene.pod(), std::uint16_t(1 - i));
+  const urad::CheapestPair pair =
+      urad::cheapest_exchange(scene.pod(), p, q, net, q8(error), &counters);
+  CHECK(counters.evaluated + counters.skipped_facing == 1);
+  if (pair.way == urad::Way::none) return {};
+  return {std::exp2((pair.log2_exchange_q24 - p.shape->log2_area_q24) * 0x1p-24),
+          std::exp2(pair.log2_error_q8 / 256.0), pair.way, pair.log2_exchange_q24};
+}
+
+host::FixedScene scene_of(const host::PolygonPair& pair) {
+  return host::FixedScene::of_polygons({pair.p, pair.q}, {});
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(share * double(values.size() - 1))];
+}
+
+struct Outcome {
+  std::vector<double> error, usefulness;
+  std::size_t misses = 0;
+};
+
+Outcome outcome(const host::PairSet& set, double wanted, const urad_net* net) {
+  Outcome result;
+  for (std::size_t k = 0; k < set.pairs.size(); ++k) {
+    const Answer a = answer(scene_of(set.pairs[k]), wanted, net);
+    const double error = std::fabs(a.f / set.exact[k] - 1);
+    result.error.push_back(error);
+    result.usefulness.push_back(a.estimate / std::max(error, 1e-9));
+    result.misses += error > a.estimate;
+  }
+  return result;
+}
+
+host::PairSet test_pairs(const host::TrialFamily& family, std::size_t count) {
+  return host::trial_pairs(family, host::TrialUse::test, kSeed, count, 0);
+}
+
+}  // namespace
+
+TEST_CASE("by auto, test pairs of every family are as accurate as asked for, and it knows") {
+  std::vector<double> usefulness;
+  std::size_t misses = 0, pairs = 0;
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 400);
+    const Outcome with = outcome(set, kHundredth, &urad_general);
+    const Outcome without = outcome(set, kHundredth, nullptr);
+    for (const Outcome* one : {&with, &without}) {
+      MESSAGE(family.name, ": median ", quantile(one->error, 0.5), " p99 ",
+              quantile(one->error, 0.99), " max ", quantile(one->error, 1), ", estimate missed ",
+              one->misses, " of ", set.pairs.size(), ", estimate/error median ",
+              quantile(one->usefulness, 0.5), " p90 ", quantile(one->usefulness, 0.9));
+      CHECK(quantile(one->error, 0.5) <= 1e-3);
+      CHECK(quantile(one->error, 0.99) <= 0.03);
+      CHECK(quantile(one->error, 1) <= 0.1);
+      CHECK(one->misses <= set.pairs.size() / 40);  // 1 % and what chance may add in 400 draws
+      misses += one->misses;
+      pairs += set.pairs.size();
+      usefulness.insert(usefulness.end(), one->usefulness.begin(), one->usefulness.end());
+    }
+    if (family.name == "shared edge") CHECK(quantile(with.error, 1) <= 0.02);
+  }
+  MESSAGE("all: missed ", misses, " of ", pairs, ", estimate/error median ",
+          quantile(usefulness, 0.5), " p90 ", quantile(usefulness, 0.9));
+  CHECK(misses <= pairs / 100);
+}
+
+TEST_CASE("the exchange is one integer, whoever asks") {
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 40);
+    for (const host::PolygonPair& pair : set.pairs) {
+      const host::FixedScene scene = scene_of(pair);
+      for (const double error : {0.1, 0.01, 0.001}) {
+        const Answer there = answer(scene, error, &urad_general, 0);
+        const Answer back = answer(scene, error, &urad_general, 1);
+        REQUIRE(there.log2_g_q24 == back.log2_g_q24);
+        REQUIRE(there.way == back.way);
+        REQUIRE(there.estimate == back.estimate);
+      }
+    }
+  }
+}
+
+TEST_CASE("less error never comes cheaper, and a first vertex decides nothing but rounding") {
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 40);
+    for (const host::PolygonPair& pair : set.pairs) {
+      const host::FixedScene scene = scene_of(pair);
+      urad::Way last = urad::Way::none;
+      for (const double error : {0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 1e-4}) {
+        const Answer a = answer(scene, error, &urad_general);
+        REQUIRE(a.way >= last);
+        last = a.way;
+      }
+      host::PolygonPair turned = pair;
+      std::rotate(turned.p.outer.begin(), turned.p.outer.begin() + 1, turned.p.outer.end());
+      std::rotate(turned.q.outer.begin(), turned.q.outer.begin() + 2, turned.q.outer.end());
+      const Answer a = answer(scene, kHundredth, &urad_general);
+      const Answer b = answer(scene_of(turned), kHundredth, &urad_general);
+      REQUIRE(std::fabs(a.f - b.f) <= (a.estimate + b.estimate) * std::max(a.f, b.f));
+    }
+  }
+}
+
+TEST_CASE("the command's method auto gives the row of the source, and an error") {
+  const host::NetChoice nets{[](const std::string&) { return &urad_general; }};
+  const host::MethodSpec spec = host::parse_method("auto:0.003");
+  const host::FreePairMethod method = host::pair_method(spec, nets);
+  CHECK(method.knows_error);
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 10);
+    for (const host::PolygonPair& pair : set.pairs) {
+      const host::FixedScene scene = scene_of(pair);
+      const host::EngineSource source(scene, spec, nets, {});
+      std::array<std::uint32_t, 2> row{};
+      source.row(0, row.data());
+      const host::PairResult result = method.run(pair.p, pair.q);
+      CHECK(result.estimate.f == row[1] / 4294967296.0);
+      CHECK(result.estimate.relative_error > 0);
+      const auto& ways = source.ways();
+      CHECK(std::accumulate(ways.begin(), ways.end(), 0u) == 1);
+    }
+  }
+  for (const char* wrong : {"auto:0", "auto:1", "auto:x", "auto:-0.1", "auto:nan"})
+    CHECK_THROWS(host::pair_method(host::parse_method(wrong), nets));
+}
+
+TEST_CASE("light of cube7 by auto") {
+  const host::NetChoice nets{[](const std::string&) { return &urad_general; }};
+  const host::Scene scene = host::load_scene("cube7");
+  host::SceneSolver solver(scene, 0, true);
+  host::SolveGoal goal;
+  goal.error = 1e-5;
+  const host::MethodRun run = solver.run(host::parse_method("auto"), nets, goal);
+  MESSAGE("cube7 by auto: rms ", run.rms, " max ", run.max, ", factors std ", run.factors.std,
+          " worst row ", run.factors.row_worst);
+  CHECK(run.rms <= 5e-4);
+  CHECK(run.max <= 2e-3);
+}
