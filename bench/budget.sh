@@ -109,6 +109,8 @@ END
   row "pair by the network" "1,300 (M3 900, M4 700)" count pair_network
   row "pair by the network, cut by a plane" - count pair_network_clipped
   row "far pair, network skipped" - count pair_network_far
+  row "pair by auto, 1 %, without a network" - count pair_auto
+  row "one point of an exact sum" - count pair_point
   row "pair by the network, in runs" 600 per_pair_of_run
   row "run of 49 by the network" - count run_network
   row "shot, solver alone" - count shot_solver_alone

@@ -9,9 +9,11 @@
 #include "port.hpp"
 #include "regions.hpp"
 #include "text.hpp"
+#include "urad/cheapest.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
+#include "urad/lambert.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/urad.h"
 
@@ -68,6 +70,18 @@ void pairs(port::Writer& labels, uint16_t shooter, uint16_t receiver) {
           exchange(urad::Kernel::moment, &URAD_NET_NAME));
 }
 
+/// What auto takes, without a network, and one point of an exact sum.
+void sums(port::Writer& labels, uint16_t shooter, uint16_t receiver) {
+  const urad::Patch i = urad::patch_at(kScene, shooter), j = urad::patch_at(kScene, receiver);
+  const auto cheapest = [&] {
+    return urad::cheapest_exchange(kScene, i, j, nullptr, urad::kPercentError_q8, &g_counters);
+  };
+  if (cheapest().way == urad::Way::none) return;
+  measure(labels, "pair_auto", [&] { g_sink = cheapest().log2_exchange_q24; });
+  measure(labels, "pair_point",
+          [&] { g_sink = urad::lambert_whole(kScene, i, j, 1).log2_exchange_q24; });
+}
+
 bool shots(port::Writer& labels, const char* label, const urad_source& source, int count) {
   bool good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, kLongestRun,
                                    g_memory, sizeof g_memory) == urad::Status::ok;
@@ -118,6 +132,8 @@ int run() {
   measure(labels, "empty", [] {});
   for (uint16_t receiver = 0; receiver < kScene.patch_count; ++receiver)
     pairs(labels, shooter, receiver);
+  for (uint16_t receiver = 0; receiver < kScene.patch_count; ++receiver)
+    sums(labels, shooter, receiver);
 
   urad::PairSource network = {&kScene, &URAD_NET_NAME, urad::Kernel::moment, 0, 0, &g_counters};
   urad::PairSource kernel = {&kScene, nullptr, urad::Kernel::moment, 0, 0, &g_counters};

@@ -112,6 +112,7 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
   PairTraits traits;
   int32_t limit_q24 = 0;
   bool cut = true;
+  uint16_t point_sums = 0;
   const bool known = clipped_kernel(scene, i, j, &cuts, &kernel, &limit_q24, &cut);
   const auto found = [&](int32_t log2_g_q24, Way way, int32_t floor_q8) {
     ++counters->evaluated;
@@ -119,11 +120,12 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
     if (way == Way::kernel) ++counters->far_pairs;
     if (way > Way::network) ++counters->near_pairs;
     return CheapestPair{least(log2_g_q24, limit_q24),
-                        within_q8(weighted_q8(model_of(way, traits), traits), floor_q8), way};
+                        within_q8(weighted_q8(model_of(way, traits), traits), floor_q8), way,
+                        point_sums};
   };
   const auto nothing = [&] {
     ++counters->skipped_facing;
-    return CheapestPair{kNoExchange, -32767, Way::none};
+    return CheapestPair{kNoExchange, -32767, Way::none, 0};
   };
   if (!known) return nothing();
   fill_traits(scene, i, j, kernel, cut, &traits);
@@ -140,6 +142,7 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
   };
   if (good(Way::point)) {
     const LambertSum sum = lambert_whole(scene, i, j, 1);
+    point_sums = sum.point_sums;
     if (sum.log2_exchange_q24 != kNoExchange) return sum_found(sum, Way::point);
   }
   for (int points = 2; points <= 3; ++points) {
@@ -147,6 +150,7 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
     const ErrorModel& before = kErrorBefore[points - 2][int(traits.pair_class)];
     if (weighted_q8(before, traits) > log2_error_q8) continue;
     const LambertSum sum = lambert_whole(scene, i, j, points);
+    point_sums = uint16_t(point_sums + sum.point_sums);
     traits.log2_q8[trait_doubt] = doubt_q8(sum.log2_doubt_q24);
     if (sum.log2_exchange_q24 != kNoExchange && good(way)) return sum_found(sum, way);
     traits.log2_q8[trait_doubt] = 0;
@@ -155,6 +159,7 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
   const int32_t wanted_q16 = (log2_error_q8 - rest_q8) * kRefinedInverse_q8[int(traits.pair_class)];
   const LambertSum sum = lambert_refined(scene, i, j, wanted_q16 * 256);
   if (sum.log2_exchange_q24 == kNoExchange) return nothing();
+  point_sums = uint16_t(point_sums + sum.point_sums);
   return sum_found(sum, Way::refined);
 }
 

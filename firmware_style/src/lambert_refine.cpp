@@ -82,7 +82,7 @@ class Refiner {
 
   int64_t value() const noexcept { return value_; }
   int64_t area() const noexcept { return area_; }
-  int cells() const noexcept { return cells_; }
+  int point_sums() const noexcept { return point_sums_; }
   /// log2 of doubt / value; the most there is where the value has no sign yet.
   int32_t doubt_q24() const noexcept {
     if (doubt_ == 0) return kNoDoubt_q24;
@@ -153,6 +153,7 @@ class Refiner {
   /// a shift by as much.
   void measure(const Piece& piece, int points, bool to_refine, DoubtfulCell* cell) noexcept {
     ++cells_;
+    point_sums_ += points * points;
     int64_t sum = 0, most = 0;
     const int64_t whole = mean_span(piece);
     Variation along_u_variation, along_v_variation;
@@ -207,7 +208,7 @@ class Refiner {
   const Outline& receiver_;
   urad_point normal_q30_;
   int64_t value_ = 0, doubt_ = 0, area_ = 0;
-  int cells_ = 0, count_ = 0;
+  int cells_ = 0, count_ = 0, point_sums_ = 0;
   DoubtfulCell pending_[kPending];
 };
 
@@ -222,7 +223,7 @@ LambertSum summed(const urad_scene& scene, const Patch& i, const Patch& j, Work 
   work(refiner);
   const int32_t log2_g_q24 =
       pair.log2_exchange_q24(refiner.value(), refiner.area(), pieces.exponent());
-  return {log2_g_q24, refiner.doubt_q24(), uint16_t(refiner.cells())};
+  return {log2_g_q24, refiner.doubt_q24(), uint16_t(refiner.point_sums())};
 }
 
 }  // namespace

@@ -1,10 +1,14 @@
-// urad evaluate: the error of networks by decade of F and by kind of pair, against the reference.
+// urad evaluate: the error of networks and methods by decade of F and by kind of pair, against the
+// reference; and the constants of auto, fitted.
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "accuracy/fit_errors.hpp"
+#include "accuracy/method_trials.hpp"
 #include "base/file.hpp"
 #include "command.hpp"
+#include "net_option.hpp"
 #include "network/evaluate.hpp"
 #include "network/net_json.hpp"
 #include "scene_option.hpp"
@@ -15,7 +19,8 @@ namespace {
 
 struct Options {
   std::vector<std::string> nets;
-  std::string scene, out = "-";
+  std::string methods, instructions, scene, out = "-";
+  bool fit_auto = false;
   host::MeshOptions mesh;
   int bits = 16;
   std::size_t pairs = 4000;
@@ -57,7 +62,45 @@ std::string on_random_pairs(const Options& options, const std::vector<Entry>& en
   return text;
 }
 
+/// Any methods on the test pairs of every family; the first net, if any, is the general one.
+std::string on_trial_pairs(const Options& options, const Common& common) {
+  const Nets nets(options.nets.empty() ? "" : options.nets.front());
+  host::TrialRequest request;
+  request.methods = host::trial_methods(nets.choice());
+  if (!options.methods.empty()) {
+    request.methods.clear();
+    for (const host::MethodSpec& spec : host::parse_methods(options.methods))
+      request.methods.push_back({spec.text(), spec, nets.choice()});
+  }
+  std::optional<host::InstructionCounts> counts;
+  if (!options.instructions.empty()) {
+    counts.emplace(options.instructions);
+    request.instructions = &*counts;
+  }
+  request.seed = options.seed;
+  request.pairs = options.pairs;
+  request.threads = common.threads;
+  return fmt::format("Test pairs, seed {}, {} of each family, against the reference.\n",
+                     options.seed, options.pairs) +
+         host::to_markdown(host::try_methods(request));
+}
+
+std::string fitted_auto(const Options& options, const Common& common) {
+  host::ErrorFitRequest request;
+  request.command = fmt::format("urad evaluate --fit-auto --pairs {}", options.pairs);
+  request.pairs = options.pairs;
+  const Nets nets(options.nets.empty() ? "" : options.nets.front());
+  request.net = nets.choice().general();
+  request.threads = common.threads;
+  return host::fitted_error_models(request);
+}
+
 void run(const Options& options, const Common& common) {
+  if (options.fit_auto || !options.methods.empty() || options.nets.empty()) {
+    host::write_file_atomically(options.out, options.fit_auto ? fitted_auto(options, common)
+                                                              : on_trial_pairs(options, common));
+    return;
+  }
   std::vector<host::NetFile> files;
   for (const std::string& path : options.nets) files.push_back(host::read_net(path));
   std::vector<Entry> entries{{"moment kernel", nullptr}};
@@ -78,10 +121,20 @@ void run(const Options& options, const Common& common) {
 
 void add_evaluate(CLI::App& app, const Common& common) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "evaluate",
-      "Error of networks by decade of F and kind of pair: on a scene, or on random pairs");
-  command->add_option("nets", options->nets, "net.json ...")->required();
+  CLI::App* command = app.add_subcommand("evaluate",
+                                         "Error of networks or methods by decade of F and kind of "
+                                         "pair: networks on a scene or on random "
+                                         "pairs, methods on pairs of every kind, with their cost");
+  command->add_option("nets", options->nets, "net.json ...; none: methods");
+  command->add_option(
+      "--method", options->methods,
+      "M[,M...]: these instead of all, on pairs of every kind; the first net.json is "
+      "their network");
+  command->add_option("--instructions", options->instructions,
+                      "icount.json of bench/icount: Cortex-M0 instructions beside the methods");
+  command->add_flag(
+      "--fit-auto", options->fit_auto,
+      "Fit the constants of method auto and write firmware_style/src/cheapest_models.hpp");
   command->add_option("--scene", options->scene,
                       "Scene to measure on; default: the first net's own, if it has one");
   add_mesh_options(command, &options->mesh);

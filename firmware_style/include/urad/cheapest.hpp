@@ -58,6 +58,7 @@ struct CheapestPair {
   int32_t log2_exchange_q24;
   int16_t log2_error_q8;
   Way way;
+  uint16_t point_sums;  ///< points of all the sums that were tried
 };
 
 /// The cheapest way whose estimate is at most 2^log2_error; if none is, the refined sum, which says

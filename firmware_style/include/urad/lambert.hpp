@@ -44,7 +44,7 @@ int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const
 struct LambertSum {
   int32_t log2_exchange_q24;  ///< log2 G, or kNoExchange
   int32_t log2_doubt_q24;  ///< log2 of an unscaled relative error: cheapest.hpp makes it an error
-  uint16_t cells;
+  uint16_t point_sums;     ///< how many points it took
 };
 
 /// What a sum without doubt says.

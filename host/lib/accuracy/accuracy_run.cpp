@@ -93,6 +93,7 @@ std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* 
        {"reference", "closed-form", "kernel", "moment", "lambert:1", "lambert:2", "lambert:3",
         "gauss:2", "gauss:4", "hemicube:64", "fixed-kernel", "fixed-moment"})
     methods.push_back({text, parse_method(text), {}});
+  methods.push_back({"auto", {"auto", ""}, {{}, general}});
   methods.push_back({"net, general", {"net", ""}, {{}, general}});
   methods.push_back({"net, of cube7", {"net", ""}, {{}, own}});
   return methods;
@@ -112,6 +113,23 @@ void measure_methods(const AccuracyRequest& request, const SceneDataset& dataset
   for (const bool concave : {false, true})
     results->free_quads.push_back(table(concave_part(quads, concave)));
   results->rooms = table(room_pairs(request.pair_seed, 5 * request.pairs, request.threads));
+}
+
+/// The kinds of pairs, and the light of cube7 by auto with the general net.
+void try_kinds(const AccuracyRequest& request, const urad_net* general, SceneSolver& cube7,
+               AccuracyResults* results) {
+  const NetChoice nets{{}, general};
+  TrialRequest trials;
+  trials.methods = trial_methods(nets);
+  trials.seed = request.pair_seed;
+  trials.pairs = request.pairs / 2;
+  trials.threads = request.threads;
+  std::optional<InstructionCounts> counts;
+  if (!request.instructions.empty()) trials.instructions = &counts.emplace(request.instructions);
+  results->trials = try_methods(trials);
+  const MethodRun run = cube7.run({"auto", ""}, nets, converged(cube7.scene()));
+  results->auto_light = run.rms;
+  results->auto_light_max = run.max;
 }
 
 void read_instructions(const std::string& path, AccuracyResults* results) {
@@ -173,6 +191,7 @@ AccuracyResults run_accuracy(const AccuracyRequest& request) {
 
   measure_methods(request, dataset, cube_scene,
                   table_methods(general, &results.cube7.front().net.quantised16.pod()), &results);
+  try_kinds(request, general, cube7, &results);
   progress.add();
   return results;
 }

@@ -117,6 +117,40 @@ void add_cube_factors(const AccuracyResults& r, List* list) {
                    cube.factors.std <= kHemicubeStd && cube.exact_rows == cube.rows});
 }
 
+/// What auto:0.01 promises, on pairs that none of its constants was fitted to.
+void add_auto(const AccuracyResults& r, List* list) {
+  const auto row = [&](std::size_t family) -> const MethodTrialRow& {
+    const auto& rows = r.trials.families.at(family).rows;
+    return *std::find_if(rows.begin(), rows.end(), [](const auto& x) { return x.label == "auto"; });
+  };
+  const auto most = [&](double MethodTrialRow::*value) {
+    return std::max({row(0).*value, row(1).*value, row(2).*value});
+  };
+  const double median = most(&MethodTrialRow::median), p99 = most(&MethodTrialRow::p99),
+               max = most(&MethodTrialRow::max);
+  list->push_back(
+      {"auto, free quads and rooms", "median <= 0.1 %, p99 <= 3 %, none above 10 %",
+       fmt::format("{}, {}, {}", fine_percent(median), fine_percent(p99), fine_percent(max)),
+       median <= 1e-3 && p99 <= 0.03 && max <= 0.1});
+  const double edge = row(3).max;
+  list->push_back({"auto, walls that share an edge, 1 to 179 degrees, 1:20 to 20:1", "<= 2 %",
+                   fine_percent(edge), edge <= 0.02});
+  double missed = 0, pairs = 0, useful = 0;
+  for (std::size_t f = 0; f < r.trials.families.size(); ++f) {
+    missed += row(f).estimate->missed * double(row(f).pairs);
+    pairs += double(row(f).pairs);
+    useful = std::max(useful, row(f).estimate->median);
+  }
+  list->push_back({"auto, its estimate of its error, all kinds of pairs", "holds for 99 %",
+                   fmt::format("{:.2f} %; by the true error, median of the worst kind {:.2g}",
+                               100 - 100 * missed / pairs, useful),
+                   missed <= 0.01 * pairs});
+  list->push_back(
+      {"radiosity of cube7 by auto", "<= 0.05 % rms, <= 0.2 % max",
+       fmt::format("{}, {}", fine_percent(r.auto_light), fine_percent(r.auto_light_max)),
+       r.auto_light <= 5e-4 && r.auto_light_max <= 2e-3});
+}
+
 void add_light(const AccuracyResults& r, List* list) {
   const double net = worst_of(r.cube7, [](const SceneNetTrial& t) { return t.light; });
   list->push_back({"radiosity of cube7 by network, converged", "<= 0.3 % rms", fine_percent(net),
@@ -186,6 +220,7 @@ std::vector<Bound> bounds(const AccuracyResults& results) {
   add_occluded("square obstruction, in a corner and in the middle", results.squares, &list);
   add_occluded(fmt::format("L-room, {} factors", results.l_room.size()), results.l_room, &list);
   add_cube_factors(results, &list);
+  add_auto(results, &list);
   add_light(results, &list);
   add_chip(results, &list);
   return list;

@@ -33,10 +33,7 @@ double fastest_ns(const Pass& pass) {
   return best;
 }
 
-struct Values {
-  std::vector<double> f;
-  double ns = 0;  // of all together
-};
+using Values = MethodValues;
 
 Values by_vertices(const PairSet& set, const TableMethod& method) {
   const FreePairMethod run = pair_method(method.spec, method.nets);
@@ -100,11 +97,14 @@ Values scene_by_engine(const Scene& scene, const TableMethod& method) {
 
 double rms(const ErrorRow& row) { return std::sqrt(row.std * row.std + row.bias * row.bias); }
 
+MethodValues method_values(const PairSet& set, const TableMethod& method) {
+  return is_engine_method(method.spec) ? by_engine(set, method) : by_vertices(set, method);
+}
+
 std::vector<MethodRow> measure_pairs(const PairSet& set, const std::vector<TableMethod>& methods) {
   std::vector<MethodRow> table;
   for (const TableMethod& method : methods) {
-    const Values values =
-        is_engine_method(method.spec) ? by_engine(set, method) : by_vertices(set, method);
+    const Values values = method_values(set, method);
     std::vector<Measured> measured;
     for (std::size_t k = 0; k < values.f.size(); ++k)
       measured.push_back({set.exact[k], values.f[k], PairKind::middle});

@@ -27,6 +27,13 @@ struct MethodRow {
 /// Root of the mean squared error.
 double rms(const ErrorRow& row);
 
+/// F of every pair of a set by one method, and the time of all together.
+struct MethodValues {
+  std::vector<double> f;
+  double ns = 0;
+};
+MethodValues method_values(const PairSet& set, const TableMethod& method);
+
 /// Every method on the pairs of a set. Methods in double start from the vertices. Those of the
 /// engine start from a scene of the two patches that was made before, as a chip has it in flash.
 std::vector<MethodRow> measure_pairs(const PairSet& set, const std::vector<TableMethod>& methods);

@@ -35,7 +35,8 @@ std::optional<double> InstructionCounts::mean(const std::string& what) const {
 
 std::optional<double> InstructionCounts::per_pair(const std::string& method) const {
   static const std::map<std::string, std::string> names = {
-      {"net", "pair_network"}, {"fixed-moment", "pair_moment"}, {"fixed-kernel", "pair_centre"}};
+      {"net", "pair_network"}, {"fixed-moment", "pair_moment"}, {"fixed-kernel", "pair_centre"},
+      {"auto", "pair_auto"}};
   const auto found = names.find(method);
   return found == names.end() ? std::nullopt : mean(found->second);
 }

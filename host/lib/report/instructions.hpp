@@ -14,6 +14,8 @@ class InstructionCounts {
 
   /// One pair, one shot of the cube by this method; nothing where it was not counted.
   std::optional<double> per_pair(const std::string& method) const;
+  /// One point of an exact sum over a square patch, all it takes beside the point included.
+  std::optional<double> per_point() const { return mean("pair_point"); }
   std::optional<double> per_shot(const std::string& method) const;
 
  private:

@@ -1,0 +1,247 @@
+#include "accuracy/method_trials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "method/engine_source.hpp"
+#include "scene/fixed_scene.hpp"
+
+namespace host {
+
+namespace {
+
+constexpr std::size_t kMethodWidth = 1;  // columns to the left
+constexpr double kLeastError = 1e-9;     // of the reference, at most
+
+// Multiply-adds of one pair, from the formulas.
+constexpr double kCentreMacs = 13, kMomentMacs = 55, kInputMacs = 60;
+constexpr double kPointMacs = 4 * 31 + 20;  // four edges, and the place of the point
+
+/// What a method made of one pair.
+struct One {
+  double exact = 0, f = 0, ns = 0;
+  std::optional<double> multiply_adds, instructions, estimate;
+  urad::Way way = urad::Way::none;
+};
+
+double net_macs(const urad_net& net) {
+  return kMomentMacs + kInputMacs + net.hidden * (net.inputs + 1) + net.inputs;
+}
+
+std::optional<double> multiply_adds(const TableMethod& method, const urad::CheapestPair* cheapest) {
+  const std::string& name = method.spec.name;
+  if (name == "kernel" || name == "fixed-kernel") return kCentreMacs;
+  if (name == "moment" || name == "fixed-moment") return kMomentMacs;
+  if (name == "lambert") return kPointMacs * std::pow(method.spec.number(1, 1, 32), 2);
+  if (name == "gauss") return kCentreMacs * std::pow(method.spec.number(2, 1, 32), 4);
+  if (!cheapest) return std::nullopt;
+  const double kernel =
+      cheapest->way == urad::Way::network ? net_macs(*method.nets.general()) : kMomentMacs;
+  return kernel + kPointMacs * cheapest->point_sums;
+}
+
+std::optional<double> instructions(const TableMethod& method, const InstructionCounts& counts,
+                                   const urad::CheapestPair* cheapest) {
+  if (!cheapest) return counts.per_pair(method.spec.name);
+  const auto moment = counts.per_pair("fixed-moment"), net = counts.per_pair("net");
+  const auto point = counts.per_point();
+  if (!moment || !net || !point) return std::nullopt;
+  return (cheapest->way == urad::Way::network ? *net : *moment) + *point * cheapest->point_sums;
+}
+
+std::vector<One> try_one(const PairSet& set, const TableMethod& method,
+                         const TrialRequest& request) {
+  const MethodValues values = method_values(set, method);
+  const bool is_auto = method.spec.name == "auto";
+  std::vector<One> result(set.pairs.size());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    One& one = result[k];
+    one = {set.exact[k], values.f[k], values.ns / double(result.size()), {}, {}, {}, {}};
+    urad::CheapestPair cheapest{};
+    if (is_auto) {
+      const FixedScene scene = FixedScene::of_polygons({set.pairs[k].p, set.pairs[k].q}, {});
+      urad_counters counters{};
+      cheapest = urad::cheapest_exchange(scene.pod(), urad::patch_at(scene.pod(), 0),
+                                         urad::patch_at(scene.pod(), 1), method.nets.general(),
+                                         auto_error_q8(method.spec), &counters);
+      // F as it is delivered, rounded to 32 bits.
+      one.estimate =
+          std::exp2(cheapest.log2_error_q8 / 256.0) + (one.f > 0 ? 0.5 / 4294967296.0 / one.f : 1);
+      one.way = cheapest.way;
+    }
+    one.multiply_adds = multiply_adds(method, is_auto ? &cheapest : nullptr);
+    if (method.spec.name == "net")
+      one.multiply_adds = net_macs(method.nets.find(method.spec.argument));
+    if (request.instructions)
+      one.instructions = instructions(method, *request.instructions, is_auto ? &cheapest : nullptr);
+  }
+  return result;
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+  return sorted.empty() ? 0 : sorted[std::size_t(std::lround(share * double(sorted.size() - 1)))];
+}
+
+MethodTrialRow row_of(const std::string& label, const std::vector<One>& ones) {
+  MethodTrialRow row;
+  row.label = label;
+  row.pairs = ones.size();
+  std::vector<double> errors, by_error;
+  double missed = 0, macs = 0, counted = 0;
+  for (const One& one : ones) {
+    const double error = one.f / one.exact - 1;
+    errors.push_back(std::fabs(error));
+    row.bias += error / double(ones.size());
+    row.ns += one.ns / double(ones.size());
+    macs += one.multiply_adds.value_or(0) / double(ones.size());
+    counted += one.instructions.value_or(0) / double(ones.size());
+    if (!one.estimate) continue;
+    missed += std::fabs(error) > *one.estimate;
+    by_error.push_back(*one.estimate / std::max(std::fabs(error), kLeastError));
+  }
+  std::sort(errors.begin(), errors.end());
+  std::sort(by_error.begin(), by_error.end());
+  row.median = quantile(errors, 0.5), row.p95 = quantile(errors, 0.95);
+  row.p99 = quantile(errors, 0.99), row.max = quantile(errors, 1);
+  if (!ones.empty() && ones.front().multiply_adds) row.multiply_adds = macs;
+  if (!ones.empty() && ones.front().instructions) row.instructions = counted;
+  if (!by_error.empty()) {
+    row.estimate = {missed / double(by_error.size()), quantile(by_error, 0.5),
+                    quantile(by_error, 0.9)};
+  }
+  return row;
+}
+
+std::string ways_of(const std::string& family, const std::string& label,
+                    const std::vector<One>& ones) {
+  constexpr const char* kNames[] = {"none",        "kernel",      "network", "point",
+                                    "four points", "nine points", "refined"};
+  std::array<double, urad::kWays> share{};
+  for (const One& one : ones) share[std::size_t(one.way)] += 100 / double(ones.size());
+  std::string line = fmt::format("| {} | {} |", family, label);
+  for (std::size_t w = 1; w < share.size(); ++w) line += fmt::format(" {:.0f} |", share[w]);
+  static_assert(std::size(kNames) == urad::kWays);
+  return line;
+}
+
+std::string number(double x) { return fmt::format("{:.2g}", x); }
+
+std::string table_of(const MethodTrialTable& table) {
+  const auto any = [&](auto has) { return std::any_of(table.rows.begin(), table.rows.end(), has); };
+  const bool counted = any([](const auto& row) { return row.instructions.has_value(); });
+  const bool sure = any([](const auto& row) { return row.estimate.has_value(); });
+  std::vector<std::string> head{"method", "median", "p95", "p99", "max", "bias", "ns", "MAC"};
+  if (counted) head.push_back("M0 instructions");
+  if (sure) head.insert(head.end(), {"error above estimate", "estimate / error, median", "p90"});
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) text += " " + cell + " |";
+    return text + "\n";
+  };
+  std::string text = "\n" + table.title + ":\n\n" + line(head) + "|";
+  for (std::size_t k = 0; k < head.size(); ++k) text += k < kMethodWidth ? " --- |" : " ---: |";
+  text += "\n";
+  for (const MethodTrialRow& row : table.rows) {
+    std::vector<std::string> cells{row.label,
+                                   number(row.median),
+                                   number(row.p95),
+                                   number(row.p99),
+                                   number(row.max),
+                                   number(row.bias),
+                                   fmt::format("{:.0f}", row.ns)};
+    const auto whole = [](const std::optional<double>& x) {
+      return x ? fmt::format("{:.0f}", *x) : std::string("-");
+    };
+    cells.push_back(whole(row.multiply_adds));
+    if (counted) cells.push_back(whole(row.instructions));
+    if (sure && row.estimate) {
+      cells.push_back(fmt::format("{:.2f} %", 100 * row.estimate->missed));
+      cells.push_back(number(row.estimate->median));
+      cells.push_back(number(row.estimate->p90));
+    } else if (sure) {
+      cells.insert(cells.end(), {"-", "-", "-"});
+    }
+    text += line(cells);
+  }
+  return text;
+}
+
+}  // namespace
+
+MethodTrials try_methods(const TrialRequest& request) {
+  MethodTrials trials;
+  std::array<std::vector<std::vector<One>>, kTrialDecades> by_decade;
+  for (auto& methods : by_decade) methods.resize(request.methods.size());
+  for (const TrialFamily& family : trial_families()) {
+    const PairSet set =
+        trial_pairs(family, TrialUse::test, request.seed, request.pairs, request.threads);
+    std::array<PairSet, kTrialDecades> parts;
+    for (std::size_t k = 0; k < set.pairs.size(); ++k) {
+      PairSet& part = parts[std::size_t(trial_decade(set.exact[k]))];
+      part.pairs.push_back(set.pairs[k]);
+      part.exact.push_back(set.exact[k]);
+    }
+    MethodTrialTable table{
+        fmt::format("{}{}, {} pairs", family.name,
+                    family.test_only ? " (no constant was fitted on these)" : "", set.pairs.size()),
+        {}};
+    for (std::size_t m = 0; m < request.methods.size(); ++m) {
+      const TableMethod& method = request.methods[m];
+      std::vector<One> all;
+      for (std::size_t d = 0; d < parts.size(); ++d) {
+        const std::vector<One> ones = try_one(parts[d], method, request);
+        all.insert(all.end(), ones.begin(), ones.end());
+        by_decade[d][m].insert(by_decade[d][m].end(), ones.begin(), ones.end());
+      }
+      table.rows.push_back(row_of(method.label, all));
+      if (method.spec.name == "auto")
+        trials.ways.push_back(ways_of(family.name, method.label, all));
+    }
+    trials.families.push_back(std::move(table));
+  }
+  for (int d = 0; d < kTrialDecades; ++d) {
+    const auto& methods = by_decade[std::size_t(d)];
+    const std::size_t pairs = methods.empty() ? 0 : methods.front().size();
+    const double high = std::pow(10, d + 1 - kTrialDecades);
+    MethodTrialTable table{
+        d == 0
+            ? fmt::format("F below {:.0e}, {} pairs of all families", high, pairs)
+            : fmt::format("F {:.0e} to {:.0e}, {} pairs of all families", high / 10, high, pairs),
+        {}};
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      table.rows.push_back(row_of(request.methods[m].label, methods[m]));
+    trials.decades.push_back(std::move(table));
+  }
+  return trials;
+}
+
+std::string to_markdown(const MethodTrials& trials) {
+  std::string text;
+  for (const auto* tables : {&trials.families, &trials.decades})
+    for (const MethodTrialTable& table : *tables) text += table_of(table);
+  if (trials.ways.empty()) return text;
+  text +=
+      "\nWays that auto took, % of the pairs:\n\n| pairs | method | kernel | network | point | "
+      "four "
+      "points | nine points | refined |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+  for (const std::string& line : trials.ways) text += line + "\n";
+  return text;
+}
+
+std::vector<TableMethod> trial_methods(const NetChoice& nets) {
+  std::vector<TableMethod> methods;
+  for (const char* text :
+       {"kernel", "moment", "lambert:1", "lambert:2", "lambert:3", "lambert:4", "gauss:2",
+        "gauss:4", "fixed-kernel", "fixed-moment", "net", "fixed-lambert:1", "fixed-lambert:2",
+        "fixed-lambert:3", "auto:0.1", "auto", "auto:0.001"}) {
+    const MethodSpec spec = parse_method(text);
+    if (spec.name == "net" && !nets.general()) continue;
+    methods.push_back({spec.name == "net" ? "net, general" : text, spec, nets});
+  }
+  return methods;
+}
+
+}  // namespace host
