@@ -201,7 +201,8 @@ TEST_CASE(
   Room open({square(0, 1, 0, true), square(0, 1, 1, false)}, {square(2, 3, 0.5, true)});
   CHECK(open.fraction(0, 1, 256) == 1.0);
   CHECK(open.counters.ray_tests == 0);
-  CHECK(open.counters.rays == 256);
+  CHECK(open.counters.rays == 0);
+  CHECK(open.counters.rays_spared == 256);
   Room shut({square(0, 1, 0, true), square(0, 1, 1, false)}, {square(-1, 2, 0.5, true)});
   CHECK(shut.fraction(0, 1, 256) == 0.0);
   CHECK(shut.fraction(0, 1, 1, false) == 0.0);

@@ -2,6 +2,7 @@
 
 #include "hemicube_raster.hpp"
 #include "urad/vec.hpp"
+#include "visibility_sample.hpp"
 
 namespace urad {
 
@@ -38,6 +39,7 @@ struct Walk {
   uint16_t shooter;
   int first_face, end_face, first_row, end_row;
   unsigned drawn;  // faces that something was drawn on
+  Band touched;    // rows of this walk that something was drawn on
 
   /// Faces of this walk that a polygon with these vertices may touch, as bits.
   unsigned reach(const urad_point* corner, int corners) const noexcept {
@@ -56,10 +58,13 @@ struct Walk {
     for (int face = first_face; face < end_face; ++face) {
       if (!(faces >> face & 1u)) continue;
       const Band band{face, first_row, end_row};
-      const uint32_t cells =
-          paint(source, view, band, scan(view, band, resolution, words, source.mask));
+      const Band rows = scan(view, band, resolution, words, source.mask);
+      const uint32_t cells = paint(source, view, band, rows);
       source.counters->cells += cells;
-      if (cells) drawn |= 1u << face;
+      if (cells == 0) continue;
+      drawn |= 1u << face;
+      touched.first = rows.first < touched.first ? rows.first : touched.first;
+      touched.end = rows.end > touched.end ? rows.end : touched.end;
     }
   }
 
@@ -116,13 +121,22 @@ struct Walk {
   }
 };
 
-Walk walk_from(const HemicubeSource& source, uint16_t shooter) noexcept {
+/// Where the half cube stands: on the centre, or on the middle of a quarter of the patch.
+urad_point eye_on(const urad_scene& scene, const Patch& patch, int eye, int eyes) noexcept {
+  urad_point point = patch.centroid;
+  if (eyes == 1) return point;
+  const PatchSampler sampler(scene, patch);
+  const uint32_t x = eye & 1 ? 0x60000000u : 0x20000000u, y = eye & 2 ? 0x60000000u : 0x20000000u;
+  return sampler.point(x, y, &point) ? point : patch.centroid;
+}
+
+Walk walk_from(const HemicubeSource& source, uint16_t shooter, int eye = 0, int eyes = 1) noexcept {
   const Patch patch = patch_at(*source.scene, shooter);
-  const Eye eye{patch.centroid,
-                hemicube_frame(patch.shape->normal_q30, shooter, source.flags & hemicube_turned)};
+  const Eye from{eye_on(*source.scene, patch, eye, eyes),
+                 hemicube_frame(patch.shape->normal_q30, shooter, source.flags & hemicube_turned)};
   const bool planar = patch.surface->flags & URAD_SURFACE_PLANAR;
-  return {source, eye, planar ? patch.surface : nullptr, shooter, 0,
-          5,      0,   source.table.resolution,          0};
+  return {source, from, planar ? patch.surface : nullptr, shooter, 0,
+          5,      0,    source.table.resolution,          0,       {0, 0, 0}};
 }
 
 /// Rounded vertices leave seams that one cell in a million falls into: its share goes to the
@@ -202,6 +216,7 @@ Status hemicube_items(HemicubeSource* source, uint16_t shooter, int face,
     return Status::bad_argument;
   }
   source->shooter = -1;
+  source->used = true;
   const int end = first_row + source->rows, resolution = source->table.resolution;
   for (int k = 0; k < source->rows * resolution; ++k)
     source->depth[k] = 0, source->item[k] = kNoItem;
@@ -216,32 +231,43 @@ Status hemicube_render(HemicubeSource* source, uint16_t shooter) noexcept {
   if (!source || shooter >= source->scene->patch_count) return Status::bad_argument;
   if (source->shooter == shooter) return Status::ok;
   const int resolution = source->table.resolution;
+  const bool all_rows = source->flags & hemicube_all_rows;
   for (uint16_t k = 0; k < source->scene->patch_count; ++k) {
     source->visible_uq32[k] = 0;
     if (source->coverage_uq32) source->coverage_uq32[k] = 0;
   }
-  for (int k = 0; k < source->rows * resolution; ++k)
+  for (int k = 0; source->used && k < source->rows * resolution; ++k)
     source->depth[k] = 0, source->item[k] = kNoItem;
+  source->used = false;
 
-  raster::Walk walk = raster::walk_from(*source, shooter);
-  if (source->rows == 0) {
-    walk.run();
-  } else {
-    for (int face = 0; face < 5; ++face) {
-      walk.first_face = face, walk.end_face = face + 1;
-      for (int row = face == 0 ? 0 : resolution >> 1; row < resolution; row += source->rows) {
-        walk.first_row = row;
-        walk.end_row = row + source->rows < resolution ? row + source->rows : resolution;
-        const unsigned drawn_before = walk.drawn;
-        walk.drawn = 0;
-        walk.run();
-        if (walk.drawn) raster::harvest(*source, {face, walk.first_row, walk.end_row});
-        walk.drawn |= drawn_before;
+  const int eyes = source->flags & hemicube_four_eyes ? 4 : 1;
+  unsigned drawn = 0;
+  for (int eye = 0; eye < eyes; ++eye) {
+    raster::Walk walk = raster::walk_from(*source, shooter, eye, eyes);
+    if (source->rows == 0) {
+      walk.run();
+    } else {
+      for (int face = 0; face < 5; ++face) {
+        walk.first_face = face, walk.end_face = face + 1;
+        for (int row = face == 0 ? 0 : resolution >> 1; row < resolution; row += source->rows) {
+          walk.first_row = row;
+          walk.end_row = row + source->rows < resolution ? row + source->rows : resolution;
+          const raster::Band band{face, walk.first_row, walk.end_row};
+          walk.touched = {face, band.end, band.first};
+          walk.run();
+          if (all_rows) walk.touched = band, walk.drawn |= 1u << face;
+          const int rows =
+              walk.touched.end > walk.touched.first ? walk.touched.end - walk.touched.first : 0;
+          if (rows) raster::harvest(*source, band, walk.touched);
+          source->counters->rows += uint32_t(rows);
+          source->counters->rows_empty += uint32_t(band.end - band.first - rows);
+        }
       }
     }
+    drawn |= walk.drawn;
   }
   for (int face = 0; face < 5; ++face)
-    ++(walk.drawn >> face & 1u ? source->counters->faces : source->counters->faces_empty);
+    ++(drawn >> face & 1u ? source->counters->faces : source->counters->faces_empty);
   if (source->scene->flags & URAD_SCENE_CLOSED) raster::close_seams(*source);
   if (source->rows == 0 && source->coverage_uq32) {
     for (uint16_t k = 0; k < source->scene->patch_count; ++k)

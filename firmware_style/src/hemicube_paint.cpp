@@ -7,7 +7,7 @@ namespace urad::raster {
 namespace {
 
 /// Codes closer than this, 2^-24 of the distance, are one plane: the polygon drawn first keeps the
-/// cell.
+/// cell, but for dark sides, which give way to the lit side of the same sheet.
 constexpr uint32_t kTie = 4;
 
 /// 1/w over a face is affine: normal . (s, t, 1) / offset. Here times R 2^56, less the exponent of
@@ -49,6 +49,7 @@ uint32_t paint(const HemicubeSource& source, const View& view, const Band& band,
   const Depth depth = buffered ? depth_of(view, band.face, resolution) : Depth{0, 0, 0, 0};
   uint32_t* sums = buffered ? source.coverage_uq32 : source.visible_uq32;
   uint32_t sum = 0, cells = 0;
+  const int share = source.flags & hemicube_four_eyes ? 2 : 0;  // of four eyes each gives a quarter
   for (int row = touched.first; row < touched.end; ++row) {
     uint32_t* mask = source.mask + (row - band.first) * words;
     const uint32_t* delta = delta_row(source.table, band.face, row);
@@ -63,13 +64,16 @@ uint32_t paint(const HemicubeSource& source, const View& view, const Band& band,
         if (!(bits >> bit & 1u)) continue;
         const int column = 32 * k + bit;
         ++cells;
-        sum = add_saturating(sum, delta[half_column(half, column)]);
+        sum = add_saturating(sum, delta[half_column(half, column)] >> share);
         if (!buffered) continue;
         const uint32_t here = code(at_row + column * depth.per_column, depth.exponent);
         uint32_t& nearest = source.depth[place + column];
-        if (here <= nearest || (nearest != 0 && here - nearest <= kTie)) continue;
+        uint16_t& item = source.item[place + column];
+        const bool level =
+            nearest != 0 && (here > nearest ? here - nearest : nearest - here) <= kTie;
+        if (level ? item != kNoItem : here < nearest) continue;
         nearest = here;
-        source.item[place + column] = view.item;
+        item = view.item;
       }
     }
   }
@@ -77,18 +81,19 @@ uint32_t paint(const HemicubeSource& source, const View& view, const Band& band,
   return cells;
 }
 
-void harvest(const HemicubeSource& source, const Band& band) noexcept {
+void harvest(const HemicubeSource& source, const Band& band, const Band& touched) noexcept {
   const int resolution = source.table.resolution, half = resolution >> 1;
-  uint32_t* depth = source.depth;
-  uint16_t* item = source.item;
-  for (int row = band.first; row < band.end; ++row) {
+  const int share = source.flags & hemicube_four_eyes ? 2 : 0;
+  uint32_t* depth = source.depth + (touched.first - band.first) * resolution;
+  uint16_t* item = source.item + (touched.first - band.first) * resolution;
+  for (int row = touched.first; row < touched.end; ++row) {
     const uint32_t* delta = delta_row(source.table, band.face, row);
     for (int column = 0; column < resolution; ++column, ++depth, ++item) {
       if (*depth == 0) continue;
       *depth = 0;
       if (*item == kNoItem) continue;
       uint32_t& sum = source.visible_uq32[*item];
-      sum = add_saturating(sum, delta[half_column(half, column)]);
+      sum = add_saturating(sum, delta[half_column(half, column)] >> share);
       *item = kNoItem;
     }
   }

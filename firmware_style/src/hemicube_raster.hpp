@@ -49,8 +49,8 @@ Band scan(const View& view, const Band& band, int resolution, int words, uint32_
 uint32_t paint(const HemicubeSource& source, const View& view, const Band& band,
                const Band& touched) noexcept;
 
-/// Adds the cells of a finished band to visible_uq32 and empties it.
-void harvest(const HemicubeSource& source, const Band& band) noexcept;
+/// Adds the cells of rows `touched` of a finished band to visible_uq32 and empties them.
+void harvest(const HemicubeSource& source, const Band& band, const Band& touched) noexcept;
 
 /// a + b, saturating at 2^32 - 1.
 constexpr uint32_t add_saturating(uint32_t a, uint32_t b) noexcept {

@@ -1,5 +1,6 @@
 #include "urad/hybrid.hpp"
 
+#include "urad/clip.hpp"
 #include "urad/log2.hpp"
 #include "urad/ratio.hpp"
 #include "urad/visibility.hpp"
@@ -14,27 +15,32 @@ constexpr uint32_t times(uint32_t a, uint32_t b_uq, int bits) noexcept {
   return product > 0xFFFFFFFFu ? 0xFFFFFFFFu : uint32_t(product);
 }
 
-/// What of the pair's exchange gets through: by cells, or by rays where there are none.
-uint32_t visible_uq16(const HybridSource& source, const Patch& i, const Patch& j,
-                      urad_counters* counters) noexcept {
-  const HemicubeSource& hemicube = *source.hemicube;
-  const urad_scene& scene = *hemicube.scene;
-  if (scene.flags & URAD_SCENE_CONVEX) return kAllVisible_uq16;
-  const uint32_t seen = hemicube.visible_uq32[j.index], covered = hemicube.coverage_uq32[j.index];
-  if (covered == 0) return visible_fraction_uq16(scene, i, j, source.rays, true, counters);
-  if (seen == 0) ++counters->blocked;
-  return seen >= covered ? kAllVisible_uq16 : uint32_t(round_shift(ratio_q(seen, covered, 24), 8));
-}
-
 uint32_t factor_uq32(const HybridSource& source, const Patch& i, const Patch& j,
                      urad_counters* counters) noexcept {
-  const urad_scene& scene = *source.hemicube->scene;
-  int32_t log2_g_q24 = exchange_log2_q24(scene, i, j, source.kernel, source.net, 0, counters);
+  const HemicubeSource& hemicube = *source.hemicube;
+  const urad_scene& scene = *hemicube.scene;
+  const bool convex = scene.flags & URAD_SCENE_CONVEX;
+  const uint32_t covered = convex ? 0 : hemicube.coverage_uq32[j.index];
+  const uint32_t seen = covered ? hemicube.visible_uq32[j.index] : 0;
+  if (covered && !seen) {  // no need to know of how much nothing is seen
+    ++counters->evaluated;
+    ++counters->blocked;
+    return 0;
+  }
+  int32_t log2_g_q24 =
+      exchange_log2_q24(scene, i, j, source.kernel, source.net, source.skips_off, counters);
   if (log2_g_q24 == kNoExchange) return 0;
   if (scene.log2_scale_q24)
     log2_g_q24 += scene.log2_scale_q24[i.index] + scene.log2_scale_q24[j.index];
   const uint32_t f_uq32 = form_factor_uq32(log2_g_q24, i.shape->log2_area_q24);
-  return times(f_uq32, visible_uq16(source, i, j, counters), 16);
+  if (convex) {
+    ++counters->skipped_convex;
+    return f_uq32;
+  }
+  if (!covered)
+    return times(f_uq32, visible_fraction_uq16(scene, i, j, source.rays, true, counters), 16);
+  if (seen >= covered) return f_uq32;
+  return times(f_uq32, uint32_t(round_shift(ratio_q(seen, covered, 24), 8)), 16);
 }
 
 /// A factor from the centre of the shooter, made the mean over the shooter to second order.
@@ -132,6 +138,13 @@ urad_status hybrid_fill(void* hybrid_source, uint16_t shooter, uint16_t surface,
   if (source->near_rho_uq16 != 0)
     return hemicube_fill(&hemicube, shooter, surface, first, count, f_uq32);
   const bool same = from.surface == &receivers && (receivers.flags & URAD_SURFACE_PLANAR);
+  if (!same && !(source->skips_off & skip_off_behind) &&
+      side_of_run(scene, from, receivers) == Side::behind) {
+    for (uint16_t k = 0; k < count; ++k) f_uq32[k] = 0;
+    hemicube.counters->skipped_facing += count;
+    hemicube.counters->skipped_behind += count;
+    return URAD_OK;
+  }
   Patch to = patch_at(scene, first);
   for (uint16_t k = 0; k < count; ++k) {
     f_uq32[k] = 0;

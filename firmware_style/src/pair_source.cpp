@@ -12,16 +12,71 @@ urad_status no_light(uint32_t* f_uq32, uint16_t count) noexcept {
   return URAD_OK;
 }
 
-int32_t exchange_q24(const PairSource& source, const Patch& i, const Patch& j, Side side) noexcept {
+int32_t exchange_q24(const PairSource& source, const Patch& i, const Patch& j, Side side,
+                     SmallExchange* limit) noexcept {
   const urad_scene& scene = *source.scene;
   if (source.exchange) return source.exchange(source, i, j);
   if (source.points) return exchange_exact_q24(scene, i, j, source.points, source.counters);
   const auto exchange = side == Side::front ? exchange_in_front_q24 : exchange_log2_q24;
-  return exchange(scene, i, j, source.kernel, source.net, source.skips_off, source.counters);
+  return exchange(scene, i, j, source.kernel, source.net, source.skips_off, source.counters, limit);
 }
 
 int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
   return scene.log2_scale_q24 ? scene.log2_scale_q24[patch] : 0;
+}
+
+/// What a row may still leave out, kept from run to run.
+class Allowance {
+ public:
+  Allowance(PairSource* source, const Patch& from, uint32_t first, uint32_t count) noexcept
+      : source_(*source), log2_area_q24_(from.shape->log2_area_q24) {
+    if (source_.bound_uq32 == 0) return;
+    const bool goes_on = source_.lost_shooter == from.index && first >= source_.lost_next;
+    if (!goes_on) source_.lost_uq32 = 0;
+    source_.lost_shooter = from.index;
+    source_.lost_next = first + count;
+    greatest_q24_ =
+        log2_q24(source_.bound_uq32) + (3 << 24) - log2_q24(uint32_t{source_.scene->patch_count});
+    look();
+  }
+
+  /// For the next pair, whose repair is d_i d_j = 2^scale.
+  SmallExchange* limit(int32_t scale_q24) noexcept {
+    if (least_q24_ == kNoExchange) return nullptr;
+    limit_ = {least_q24_ - (32 << 24) + log2_area_q24_ - scale_q24, kNoExchange};
+    return &limit_;
+  }
+
+  /// After a pair for which limit() was asked.
+  void book(int32_t scale_q24) noexcept {
+    if (least_q24_ == kNoExchange || limit_.left_out_q24 == kNoExchange) return;
+    source_.lost_uq32 += form_factor_uq32(limit_.left_out_q24 + scale_q24, log2_area_q24_);
+    look();
+  }
+
+ private:
+  void look() noexcept {
+    if (source_.lost_uq32 >= source_.bound_uq32) {
+      least_q24_ = kNoExchange;
+      return;
+    }
+    const int32_t left_q24 = log2_q24(source_.bound_uq32 - source_.lost_uq32);
+    least_q24_ = left_q24 < greatest_q24_ ? left_q24 : greatest_q24_;
+  }
+
+  PairSource& source_;
+  int32_t log2_area_q24_, greatest_q24_ = 0, least_q24_ = kNoExchange;  // log2 of F 2^32
+  SmallExchange limit_{kNoExchange, kNoExchange};
+};
+
+uint32_t seen_uq16(const PairSource& source, const Patch& i, const Patch& j) noexcept {
+  if (source.rays == 0) return kAllVisible_uq16;
+  if ((source.scene->flags & URAD_SCENE_CONVEX) && !(source.skips_off & skip_off_convex)) {
+    ++source.counters->skipped_convex;
+    return kAllVisible_uq16;
+  }
+  return visible_fraction_uq16(*source.scene, i, j, source.rays, true, source.counters,
+                               !(source.skips_off & skip_off_blockers));
 }
 
 }  // namespace
@@ -29,7 +84,7 @@ int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
 urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uint16_t first,
                       uint16_t count, uint32_t* f_uq32) noexcept {
   if (!pair_source || !f_uq32) return URAD_BAD_ARGUMENT;
-  const PairSource& source = *static_cast<const PairSource*>(pair_source);
+  PairSource& source = *static_cast<PairSource*>(pair_source);
   const urad_scene& scene = *source.scene;
   if (shooter >= scene.patch_count || surface >= scene.surface_count) return URAD_BAD_ARGUMENT;
   const urad_surface& to = scene.surface[surface];
@@ -43,23 +98,22 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
     return no_light(f_uq32, count);
   }
   const Side side = same ? Side::both : side_of_run(scene, from, to);
-  if (side == Side::behind && !(source.skips_off & skip_off_facing)) {
+  if (side == Side::behind && !(source.skips_off & skip_off_behind)) {
     source.counters->skipped_facing += count;
+    source.counters->skipped_behind += count;
     return no_light(f_uq32, count);
   }
+  Allowance allowance(&source, from, first, count);
   Patch receiver = patch_at(scene, first);
   for (uint16_t k = 0; k < count; ++k) {
     f_uq32[k] = 0;
     if (receiver.index != shooter) {
-      int32_t log2_g_q24 = exchange_q24(source, from, receiver, side);
+      const int32_t scale = scale_q24(scene, shooter) + scale_q24(scene, receiver.index);
+      const int32_t log2_g_q24 = exchange_q24(source, from, receiver, side, allowance.limit(scale));
+      allowance.book(scale);
       if (log2_g_q24 != kNoExchange) {
-        log2_g_q24 += scale_q24(scene, shooter) + scale_q24(scene, receiver.index);
-        f_uq32[k] = form_factor_uq32(log2_g_q24, from.shape->log2_area_q24);
-        if (source.rays && !(scene.flags & URAD_SCENE_CONVEX)) {
-          const uint32_t seen_uq16 =
-              visible_fraction_uq16(scene, from, receiver, source.rays, true, source.counters);
-          f_uq32[k] = uint32_t((uint64_t{f_uq32[k]} * seen_uq16 + 0x8000u) >> 16);
-        }
+        const uint32_t f = form_factor_uq32(log2_g_q24 + scale, from.shape->log2_area_q24);
+        f_uq32[k] = uint32_t((uint64_t{f} * seen_uq16(source, from, receiver) + 0x8000u) >> 16);
       }
     }
     if (k + 1 < count) patch_advance(&receiver);

@@ -16,6 +16,7 @@ static_assert(URAD_RAYS_MAX == urad::kMaxRays);
 static_assert(int(URAD_KERNEL_CENTRE) == int(Kernel::centre));
 static_assert(int(URAD_KERNEL_MOMENT) == int(Kernel::moment));
 static_assert(int(URAD_HEMICUBE_TURNED) == int(urad::hemicube_turned));
+static_assert(int(URAD_HEMICUBE_FOUR_EYES) == int(urad::hemicube_four_eyes));
 static_assert(int(URAD_HEMICUBE_COVERAGE) == int(urad::hemicube_coverage));
 
 constexpr urad_status c_status(Status status) { return urad_status(status); }
@@ -102,7 +103,8 @@ urad_status urad_hemicube_source_init(urad_source* source, const urad_scene* sce
                                       unsigned flags, urad_counters* counters, void* memory,
                                       size_t bytes) {
   if (!source || !scene || !table || !table->top || !table->side || !counters || !memory ||
-      flags > (URAD_HEMICUBE_TURNED | URAD_HEMICUBE_COVERAGE)) {
+      (flags &
+       ~unsigned{URAD_HEMICUBE_TURNED | URAD_HEMICUBE_COVERAGE | URAD_HEMICUBE_FOUR_EYES})) {
     return URAD_BAD_ARGUMENT;
   }
   auto* const hemicube = place<urad::HemicubeSource>(memory, bytes);

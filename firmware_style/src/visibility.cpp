@@ -82,26 +82,16 @@ void grow(const urad_scene& scene, const Patch& patch, urad_point* low, urad_poi
 /// Blockers that may stand between two patches: the first few by number, any others from `rest` on.
 class Candidates {
  public:
-  Candidates(const urad_scene& scene, const Patch& i, const Patch& j) noexcept
-      : scene_(scene), rest_(scene.blocker_count) {
-    urad_point low = patch_vertex(scene, i, 0), high = low;
-    grow(scene, i, &low, &high);
-    grow(scene, j, &low, &high);
-    for (uint16_t b = 0; b < scene.blocker_count; ++b) {
-      const urad_blocker& blocker = scene.blocker[b];
-      if (boxes_apart(low, high, blocker)) continue;
-      const Extent ei = extent(scene, i, blocker), ej = extent(scene, j, blocker);
-      constexpr int32_t t = kPlaneTolerance;
-      if (!(ei.high > t && ej.low < -t) && !(ei.low < -t && ej.high > t)) continue;
-      if (count_ == kListed) {
-        rest_ = b;
-        return;
-      }
-      listed_[count_++] = b;
-    }
+  Candidates(const urad_scene& scene, const Patch& i, const Patch& j, bool reject,
+             urad_counters* counters) noexcept
+      : scene_(scene), rest_(reject ? scene.blocker_count : uint16_t{0}), any_(!reject) {
+    list(i, j);
+    const uint32_t kept = uint32_t(count_) + scene.blocker_count - rest_;
+    counters->blockers_kept += kept;
+    counters->blockers_rejected += scene.blocker_count - kept;
   }
 
-  bool empty() const noexcept { return count_ == 0; }
+  bool empty() const noexcept { return count_ == 0 && !any_; }
 
   /// The blocker that stopped a ray is asked first about the next.
   bool stop(const urad_point& a, const urad_point& b, urad_counters* counters) noexcept {
@@ -121,9 +111,31 @@ class Candidates {
   }
 
  private:
+  /// Leaves out those beside the common box, and those whose plane the patches do not lie astride.
+  void list(const Patch& i, const Patch& j) noexcept {
+    const urad_scene& scene = scene_;
+    if (rest_ == 0) return;
+    urad_point low = patch_vertex(scene, i, 0), high = low;
+    grow(scene, i, &low, &high);
+    grow(scene, j, &low, &high);
+    for (uint16_t b = 0; b < scene.blocker_count; ++b) {
+      const urad_blocker& blocker = scene.blocker[b];
+      if (boxes_apart(low, high, blocker)) continue;
+      const Extent ei = extent(scene, i, blocker), ej = extent(scene, j, blocker);
+      constexpr int32_t t = kPlaneTolerance;
+      if (!(ei.high > t && ej.low < -t) && !(ei.low < -t && ej.high > t)) continue;
+      if (count_ == kListed) {
+        rest_ = b;
+        return;
+      }
+      listed_[count_++] = b;
+    }
+  }
+
   static constexpr int kListed = 24;
   const urad_scene& scene_;
   uint16_t rest_;
+  bool any_;  // rays are made whatever the bounds say
   int count_ = 0;
   uint16_t listed_[kListed];
 };
@@ -235,13 +247,16 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept {
 }
 
 uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const Patch& other,
-                               uint16_t rays, bool weighted, urad_counters* counters) noexcept {
+                               uint16_t rays, bool weighted, urad_counters* counters,
+                               bool reject) noexcept {
   const bool in_order = one.index <= other.index;
   const Patch &i = in_order ? one : other, &j = in_order ? other : one;
   const uint16_t wanted = rays < 1 ? 1 : rays > kMaxRays ? kMaxRays : rays;
-  counters->rays += wanted;
-  Candidates candidates(scene, i, j);
-  if (candidates.empty()) return kAllVisible_uq16;
+  Candidates candidates(scene, i, j, reject, counters);
+  if (candidates.empty()) {
+    counters->rays_spared += wanted;
+    return kAllVisible_uq16;
+  }
 
   // Patches that may touch: weights of points closer than this are as great as they like.
   const bool touching = weighted && closer_than(i, j, kTouching_uq16);
@@ -263,6 +278,7 @@ uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const 
     if (!weighted) weight = {0x80000000u, 0};
     sums.add(weight, !candidates.stop(a, b, counters), uint64_t(dot(r, r)) < near2);
   }
+  counters->rays += uint32_t(made);
   if (sums.all_open()) return kAllVisible_uq16;
   if (sums.all_shut()) {
     ++counters->blocked;

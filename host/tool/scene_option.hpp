@@ -1,5 +1,8 @@
 // SCENE and how to cut it: the same for every command that takes a scene.
 #pragma once
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <string>
 
 #include "command.hpp"
@@ -24,7 +27,8 @@ struct SceneOption {
   void add_to(CLI::App* command) {
     command
         ->add_option("SCENE,--scene", name,
-                     "An OBJ with its MTL, a patch CSV, or a built-in name: cube7, cornell")
+                     fmt::format("An OBJ with its MTL, a patch CSV, or a built-in name: {}",
+                                 fmt::join(host::builtin_scenes(), ", ")))
         ->required();
     add_mesh_options(command, &mesh);
   }

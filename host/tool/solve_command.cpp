@@ -21,6 +21,8 @@ struct Options {
   std::string method, net, out, rows, report;
   std::optional<int> shots;
   double error = 0.01;
+  int rays = 1024;
+  double bound = 0;
 };
 
 std::string radiosity_table(const host::Scene& scene, const std::vector<host::Vec3>& radiosity) {
@@ -67,7 +69,8 @@ void run(const Options& options, const Common& common) {
   const Nets nets(options.net);
   const host::MethodSpec spec = host::parse_method(options.method);
   const host::Scene scene = options.scene.load();
-  host::SceneSolver solver(scene, common.threads, common.quiet);
+  host::SceneSolver solver(scene, common.threads, common.quiet, options.rays);
+  solver.use({.bound = options.bound});
   if (spec.name == "exact") {
     const host::ExactSolution& exact = solver.exact();
     if (!options.rows.empty()) {
@@ -75,7 +78,10 @@ void run(const Options& options, const Common& common) {
                          return exact.form_factors(Eigen::Index(i), Eigen::Index(j));
                        })});
     }
-    if (!options.report.empty()) files.push_back({options.report, host::exact_json(scene, exact)});
+    if (!options.report.empty())
+      files.push_back(
+          {options.report,
+           host::exact_json(scene, exact, host::pair_statistics(scene, common.threads, 64))});
     files.push_back({options.out, radiosity_table(scene, exact.radiosity)});
     host::write_files_atomically(files);
     return;
@@ -127,6 +133,17 @@ void add_solve(CLI::App& app, const Common& common) {
                    "same factors; 0.01 = 1 %")
       ->check(CLI::Range(1e-7, 1.0))
       ->excludes(shots);
+  command
+      ->add_option(
+          "--rays", options->rays,
+          "Rays a pair of patches of the exact solution, where something may stand between")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command
+      ->add_option("--bound", options->bound,
+                   "Pair methods: leave out small factors as long as no row loses more than this; "
+                   "0: none")
+      ->check(CLI::Range(0.0, 0.5));
   command->add_option("--out", options->out, "CSV of the solution (\"-\": standard output)")
       ->required();
   command->add_option("--rows", options->rows, "CSV of all form factors, before repair");

@@ -17,7 +17,16 @@ enum class Kernel : uint8_t { centre, moment };
 inline constexpr int32_t kNoExchange = INT32_MIN;
 
 /// Which skips are switched OFF (for tests): the factors keep their bits, the counters change.
-enum SkipOff : uint32_t { skip_off_far = 1, skip_off_facing = 2, skip_off_same = 4 };
+enum SkipOff : uint32_t {
+  skip_off_far = 1,       ///< far pairs run the network, too: `networks` takes up far_pairs
+  skip_off_facing = 2,    ///< pairs that look away go all the way: `evaluated` takes up the rest
+  skip_off_same = 4,      ///< patches of one plane are looked at one by one, and found to look away
+  skip_off_behind = 8,    ///< so are those of surfaces wholly behind
+  skip_off_convex = 16,   ///< convex scenes ask for rays, too: rays_spared takes up skipped_convex
+                          ///< times rays
+  skip_off_blockers = 32  ///< rays are made and tested against all blockers: `rays` takes up
+                          ///< rays_spared, blockers_kept takes up blockers_rejected
+};
 
 /// Invariants of two patches of the scene after each was cut to the other's front half-space.
 /// *limit_q24: log2 of the smaller area left, which G cannot exceed. False when they exchange no
@@ -25,18 +34,27 @@ enum SkipOff : uint32_t { skip_off_far = 1, skip_off_facing = 2, skip_off_same =
 bool clipped_pair(const urad_scene& scene, const Patch& i, const Patch& j, Pair* pair,
                   int32_t* limit_q24, bool* clipped) noexcept;
 
+/// Which exchanges are small enough to be left out. Judged by twice the moment kernel, where that
+/// is above the exchange: rho below 1/8, nothing cut.
+struct SmallExchange {
+  int32_t least_q24;     ///< log2 of the greatest
+  int32_t left_out_q24;  ///< log2 of twice the kernel of the pair left out, or kNoExchange
+};
+
 /// log2 G of two patches of the scene (Q7.24, square scene units), or kNoExchange. net null: the
 /// kernel alone; else the net's correction of it, or the exact sum (lambert.hpp) where the net
 /// hands over. Repair is not applied. Counts the pair as evaluated or skipped_facing.
+///
+/// limit: exchanges of at most 2^least are left out, and counted as skipped_small; null: none.
 int32_t exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j, Kernel kernel,
-                          const urad_net* net, uint32_t skips_off,
-                          urad_counters* counters) noexcept;
+                          const urad_net* net, uint32_t skips_off, urad_counters* counters,
+                          SmallExchange* limit = nullptr) noexcept;
 
 /// The same for two patches known to lie wholly in front of each other's plane: the looks at every
 /// vertex are saved.
 int32_t exchange_in_front_q24(const urad_scene& scene, const Patch& i, const Patch& j,
                               Kernel kernel, const urad_net* net, uint32_t skips_off,
-                              urad_counters* counters) noexcept;
+                              urad_counters* counters, SmallExchange* limit = nullptr) noexcept;
 
 /// log2 G by the exact sum at points x points of one of the two. Counted like the others.
 int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch& j, int points,
@@ -62,6 +80,15 @@ struct PairSource {
   int16_t log2_error_q8 = 0;        ///< for `exchange`: log2 of the relative error to stay below
   PairExchange exchange = nullptr;  ///< not null: every pair by this, as by cheapest_of_source()
   uint32_t* ways = nullptr;         ///< for `exchange`: counts of ways taken, or null
+
+  /// Bounded contribution, the one skip that changes light: factors of at most 8 bound /
+  /// patch_count are taken as 0 before network and rays, as long as those of the row together (each
+  /// as twice its kernel) stay within `bound`, UQ0.32. All B together, weighted by area, then lose
+  /// at most bound rho / (1 - rho) of themselves, rho the largest reflectance. A row is to be asked
+  /// for in order, in runs of any length. 0: none.
+  uint32_t bound_uq32 = 0;
+  uint32_t lost_uq32 = 0;                    ///< of the row being filled
+  uint32_t lost_shooter = 0, lost_next = 0;  ///< whose row, and the patch it has come to
 };
 
 /// urad_fill for a PairSource: bad_argument on a bad index, else ok.

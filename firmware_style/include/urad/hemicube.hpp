@@ -30,8 +30,10 @@ struct HemicubeTable {
 };
 
 enum HemicubeFlags : uint8_t {
-  hemicube_turned = 1,   ///< turn about the normal by the angle of the patch
-  hemicube_coverage = 2  ///< also keep what each patch would cover if nothing else stood there
+  hemicube_turned = 1,    ///< turn about the normal by the angle of the patch
+  hemicube_coverage = 2,  ///< also keep what each patch would cover if nothing else stood there
+  hemicube_all_rows = 4,  ///< for tests: sum faces and rows that nothing touched, too
+  hemicube_four_eyes = 8  ///< the mean of four half cubes, on the middles of the patch's quarters
 };
 
 /// Right-handed unit vectors, Q2.30: two in the plane of the patch, then its normal.
@@ -61,6 +63,7 @@ struct HemicubeSource {
   urad_point* corner;       ///< vertices of the polygon being drawn, seen from the eye
   uint16_t corners;         ///< room in `corner`
   urad_counters* counters;
+  bool used = false;  ///< cells stand in depth and item
 };
 
 /// Bytes that hemicube_init() needs. rows: band height of the item buffer, a whole face is

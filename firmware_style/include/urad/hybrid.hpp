@@ -28,6 +28,7 @@ struct HybridSource {
   uint16_t rays;           ///< 1 .. 1024, for receivers that cover no cell
   uint32_t near_rho_uq16;  ///< 0: all pairs; kThreePatches_uq16: centres closer than three patches
   int32_t shooter;         ///< whose finished row stands in hemicube->visible_uq32; -1: nobody's
+  uint32_t skips_off = 0;  ///< SkipOff bits: far, facing, behind
 };
 
 /// The hemicube is the hybrid's from now on: its row is overwritten by the finished factors. `net`

@@ -59,6 +59,7 @@ typedef struct urad_radiosity {
   int32_t* unshot;   /* [patch_count][3] */
   int32_t* shot;     /* [patch_count][3], what has been shot: B = (shot + unshot) / area */
   uint32_t* factors; /* [longest_run] */
+  int32_t* emitted;  /* [patch_count][3], emitted power, for light that changes; null: it does not */
   uint16_t longest_run;
   uint16_t shooter;             /* the next one */
   uint16_t window_shots;        /* shots since the divergence guard looked */

@@ -6,7 +6,9 @@
 #include "urad/scene.h"
 #include "urad/status.h"
 
-/* What was done and what was left out, in ordered pairs unless said otherwise. Wraps at 2^32. */
+/* What was done and what was left out, in ordered pairs unless said otherwise. Wraps at 2^32.
+ * evaluated + skipped_same + skipped_facing + skipped_small = all pairs asked for, but the shooter
+ * with itself. */
 typedef struct urad_counters {
   uint32_t evaluated;           /* pairs whose factor was computed (or loaded) */
   uint32_t skipped_same;        /* another patch of the same planar surface */
@@ -15,11 +17,20 @@ typedef struct urad_counters {
   uint32_t far_pairs;           /* evaluated by the kernel alone, network not run */
   uint32_t near_pairs;          /* evaluated by the exact point-to-polygon sum */
   uint32_t blocked;             /* evaluated, no ray got through */
-  uint32_t rays;                /* visibility rays asked for */
+  uint32_t rays;                /* visibility rays made */
   uint32_t ray_tests;           /* ray against polygon */
   uint32_t faces;               /* hemicube faces rasterised */
   uint32_t faces_empty;         /* hemicube faces nothing touched */
   uint32_t cells;               /* hemicube cells written or summed */
+  uint32_t skipped_behind;      /* of skipped_facing: found with one look at a whole surface */
+  uint32_t skipped_small;       /* factor below the bound, taken as 0: PairSource::bound_uq32 */
+  uint32_t skipped_convex;      /* evaluated without a thought of blockers: the scene is convex */
+  uint32_t networks;            /* networks run */
+  uint32_t rays_spared;         /* rays not made: no blocker reaches between the two patches */
+  uint32_t blockers_kept;       /* blockers times pairs that rays are tested against */
+  uint32_t blockers_rejected;   /* the same, rejected by their bounds before any ray */
+  uint32_t rows;                /* hemicube rows summed */
+  uint32_t rows_empty;          /* rows of faces in use that nothing touched, left out */
 } urad_counters;
 
 /* Fills f_uq32[0 .. count-1] with the form factors F (UQ0.32, saturating) from patch `shooter` to patches

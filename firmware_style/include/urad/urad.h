@@ -101,8 +101,11 @@ typedef struct urad_hemicube_table {
 } urad_hemicube_table;
 
 enum {
-  URAD_HEMICUBE_TURNED = 1,  /* turned by an angle that differs by patch: half the aliasing */
-  URAD_HEMICUBE_COVERAGE = 2 /* keep what each patch would cover alone, for a hybrid source */
+  URAD_HEMICUBE_TURNED = 1,   /* turned by an angle that differs by patch: half the aliasing */
+  URAD_HEMICUBE_COVERAGE = 2, /* keep what each patch would cover alone, for a hybrid source */
+  URAD_HEMICUBE_FOUR_EYES = 8 /* the mean of half cubes on the middles of the patch's four quarters:
+                                 four times the work; for a hybrid source, whose visible fractions
+                                 one centre gets wrong behind louvres and under tables */
 };
 
 /* Bytes for a hemicube source on this scene. rows: height of a band of the item buffer, 1 ..

@@ -29,8 +29,10 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept;
 /// tr M, then comes from 8 more rays each that leave by the cosine law and meet no blocker.
 /// Segments that leave or meet a patch from behind count for nothing; 65536 when none is left.
 /// Blockers that cannot reach between the patches are left out beforehand, and when none remains no
-/// ray is made; counters->rays counts the rays asked for all the same.
+/// ray is made, and the rays asked for count as spared. reject = false keeps all blockers, for
+/// tests: the same fraction.
 uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
-                               uint16_t rays, bool weighted, urad_counters* counters) noexcept;
+                               uint16_t rays, bool weighted, urad_counters* counters,
+                               bool reject = true) noexcept;
 
 }  // namespace urad

@@ -38,7 +38,8 @@ struct HemicubeHolder {
   urad::HemicubeSource source{};
   std::size_t bytes = 0;
 
-  void init(const urad_scene& scene, int resolution, bool coverage, urad_counters* counters) {
+  void init(const urad_scene& scene, int resolution, bool coverage, urad_counters* counters,
+            bool four_eyes = false) {
     const std::size_t quarter = std::size_t(resolution / 2) * std::size_t(resolution / 2);
     std::vector<double> scratch(2 * quarter);
     top.resize(quarter);
@@ -47,7 +48,8 @@ struct HemicubeHolder {
     const bool convex = scene.flags & URAD_SCENE_CONVEX;
     const auto rows = std::uint16_t(convex ? 0 : resolution);
     const auto flags =
-        std::uint8_t(urad::hemicube_turned | (coverage && !convex ? urad::hemicube_coverage : 0));
+        std::uint8_t(urad::hemicube_turned | (coverage && !convex ? urad::hemicube_coverage : 0) |
+                     (four_eyes && !convex ? urad::hemicube_four_eyes : 0));
     bytes = urad::hemicube_bytes(std::uint16_t(resolution), rows, scene.patch_count,
                                  coverage && !convex);
     memory.resize((bytes + 3) / 4);
@@ -74,6 +76,7 @@ struct EngineSource::State {
 
   void use_pairs(urad::Kernel kernel, const urad_net* net, const EngineOptions& options) {
     pairs = {scene, net, kernel, std::uint16_t(options.rays), options.skips, &counters, 0};
+    pairs.bound_uq32 = std::uint32_t(options.bound * 4294967296.0);
     source = {urad::pair_fill, &pairs};
     ram = sizeof pairs;
   }
@@ -85,20 +88,22 @@ struct EngineSource::State {
     pairs.ways = ways.data();
   }
 
-  void use_hemicube(int resolution, bool coverage) {
-    hemicube.init(*scene, resolution, coverage, &counters);
+  void use_hemicube(int resolution, bool coverage, const EngineOptions& options) {
+    hemicube.init(*scene, resolution, coverage, &counters, coverage);
+    if (options.all_rows) hemicube.source.flags |= urad::hemicube_all_rows;
     ram = hemicube.bytes;
     source = {urad::hemicube_fill, &hemicube.source};
   }
 
   void use_hybrid(int resolution, const urad_net* net, const EngineOptions& options) {
-    use_hemicube(resolution, true);
+    use_hemicube(resolution, true, options);
     const bool convex = scene->flags & URAD_SCENE_CONVEX;
     if (urad::hybrid_init(&hybrid, &hemicube.source, urad::Kernel::moment, net,
                           std::uint16_t(options.rays),
                           convex ? urad::kThreePatches_uq16 : 0) != urad::Status::ok) {
       throw Error("hybrid: the engine refused the hemicube");
     }
+    hybrid.skips_off = options.skips;
     source = {urad::hybrid_fill, &hybrid};
     ram += sizeof hybrid;
   }
@@ -132,7 +137,7 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
   } else if (spec.name == "hemicube") {
     state_->use_hemicube(
         spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
-        false);
+        false, options);
   } else if (spec.name == "hybrid") {
     state_->use_hybrid(
         spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
@@ -177,7 +182,7 @@ EngineVisibility::EngineVisibility(const FixedScene& scene, int resolution, int 
     : state_(std::make_unique<State>()) {
   state_->scene = &scene.pod();
   state_->rays = rays;
-  state_->hemicube.init(scene.pod(), resolution, true, &state_->counters);
+  state_->hemicube.init(scene.pod(), resolution, true, &state_->counters, true);
 }
 
 EngineVisibility::~EngineVisibility() = default;

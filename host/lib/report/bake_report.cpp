@@ -30,7 +30,16 @@ Json counters_json(const urad_counters& c) {
           {"ray_tests", c.ray_tests},
           {"faces", c.faces},
           {"faces_empty", c.faces_empty},
-          {"cells", c.cells}};
+          {"cells", c.cells},
+          {"rows", c.rows},
+          {"rows_empty", c.rows_empty},
+          {"skipped_behind", c.skipped_behind},
+          {"skipped_small", c.skipped_small},
+          {"skipped_convex", c.skipped_convex},
+          {"networks", c.networks},
+          {"rays_spared", c.rays_spared},
+          {"blockers_kept", c.blockers_kept},
+          {"blockers_rejected", c.blockers_rejected}};
 }
 
 Json method_json(const MethodResult& method) {

@@ -86,7 +86,7 @@ struct BakeReport {
 
 /// Ordered pairs that the counters account for: evaluated + skipped.
 inline std::uint64_t counted_pairs(const urad_counters& c) {
-  return std::uint64_t{c.evaluated} + c.skipped_same + c.skipped_facing;
+  return std::uint64_t{c.evaluated} + c.skipped_same + c.skipped_facing + c.skipped_small;
 }
 
 /// Renders every method that has a solution, all with the white level of the reference (of the

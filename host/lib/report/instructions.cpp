@@ -47,8 +47,8 @@ std::optional<double> InstructionCounts::per_shot(const std::string& method) con
       {"fixed-moment", "shot_moment"},
       {"hemicube:32", "shot_hemicube_32"},
       {"hybrid:32", "shot_hemicube_32_near_network"},
-                                                           {"hemicube:64", "shot_hemicube_64"},
-                                                           {"hybrid:64", "shot_hemicube_64_near_network"}};
+      {"hemicube:64", "shot_hemicube_64"},
+      {"hybrid:64", "shot_hemicube_64_near_network"}};
   const auto found = names.find(method);
   return found == names.end() ? std::nullopt : mean(found->second);
 }

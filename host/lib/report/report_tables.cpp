@@ -173,7 +173,8 @@ std::string skips_html(const BakeReport& report) {
     bars.push_back({method.label(),
                     {{"evaluated", c.evaluated, "#2f6f8f"},
                      {"same surface", c.skipped_same, "#7a5c8e"},
-                     {"facing away", c.skipped_facing, "#8b8f98"}}});
+                     {"facing away", c.skipped_facing, "#8b8f98"},
+                     {"below the bound", c.skipped_small, "#b9a04a"}}});
   }
   const std::string svg = share_bars_svg(bars, "Pairs evaluated and skipped, by method");
   const auto counter = [](std::uint32_t urad_counters::*field) {
@@ -182,26 +183,37 @@ std::string skips_html(const BakeReport& report) {
     };
   };
   const auto solver = [](std::uint32_t urad_radiosity_counters::*field) {
-    return [field](const MethodResult& m) { return m.solver ? Value((*m.solver).*field) : Value(); };
+    return
+        [field](const MethodResult& m) { return m.solver ? Value((*m.solver).*field) : Value(); };
   };
   const auto pairs = [](const MethodResult& m) {
     return m.counters ? Value(double(counted_pairs(*m.counters))) : Value();
   };
   const std::string rows = table(
-      report, {{"Pairs<br>accounted for", pairs, count_text, false},
-               {"Evaluated", counter(&urad_counters::evaluated), count_text, false},
-               {"Clipped", counter(&urad_counters::clipped), count_text, false},
-               {"Far,<br>kernel alone", counter(&urad_counters::far_pairs), count_text, false},
-               {"Blocked", counter(&urad_counters::blocked), count_text, false},
-               {"Rays", counter(&urad_counters::rays), count_text, false},
-               {"Ray tests", counter(&urad_counters::ray_tests), count_text, false},
-               {"Hemicube<br>faces", counter(&urad_counters::faces), count_text, false},
-               {"of them<br>empty", counter(&urad_counters::faces_empty), count_text, false},
-               {"Cells", counter(&urad_counters::cells), count_text, false},
-               {"Updates of<br>the solver", solver(&urad_radiosity_counters::updates), count_text, false},
-               {"skipped: channel<br>without power", solver(&urad_radiosity_counters::skipped_channel), count_text, false},
-               {"skipped: receiver<br>reflects nothing", solver(&urad_radiosity_counters::skipped_black), count_text, false},
-               {"skipped: run<br>without light", solver(&urad_radiosity_counters::skipped_dark), count_text, false}});
+      report,
+      {{"Pairs<br>accounted for", pairs, count_text, false},
+       {"Evaluated", counter(&urad_counters::evaluated), count_text, false},
+       {"Clipped", counter(&urad_counters::clipped), count_text, false},
+       {"Far,<br>kernel alone", counter(&urad_counters::far_pairs), count_text, false},
+       {"Networks", counter(&urad_counters::networks), count_text, false},
+       {"No blockers:<br>convex", counter(&urad_counters::skipped_convex), count_text, false},
+       {"Blocked", counter(&urad_counters::blocked), count_text, false},
+       {"Rays", counter(&urad_counters::rays), count_text, false},
+       {"spared", counter(&urad_counters::rays_spared), count_text, false},
+       {"Ray tests", counter(&urad_counters::ray_tests), count_text, false},
+       {"Blockers<br>rejected", counter(&urad_counters::blockers_rejected), count_text, false},
+       {"Hemicube<br>faces", counter(&urad_counters::faces), count_text, false},
+       {"of them<br>empty", counter(&urad_counters::faces_empty), count_text, false},
+       {"Rows", counter(&urad_counters::rows), count_text, false},
+       {"of them<br>empty", counter(&urad_counters::rows_empty), count_text, false},
+       {"Cells", counter(&urad_counters::cells), count_text, false},
+       {"Updates of<br>the solver", solver(&urad_radiosity_counters::updates), count_text, false},
+       {"skipped: channel<br>without power", solver(&urad_radiosity_counters::skipped_channel),
+        count_text, false},
+       {"skipped: receiver<br>reflects nothing", solver(&urad_radiosity_counters::skipped_black),
+        count_text, false},
+       {"skipped: run<br>without light", solver(&urad_radiosity_counters::skipped_dark), count_text,
+        false}});
   if (rows.empty()) return {};
   return "<h2>What was left out</h2>\n<p class=\"sub\">Ordered pairs over all shots. Skipping "
          "leaves the integers as "

@@ -31,11 +31,21 @@ Json sweep(const urad_counters& c) {
           {"ray_tests", c.ray_tests},
           {"hemicube_faces", c.faces},
           {"hemicube_faces_empty", c.faces_empty},
-          {"hemicube_cells", c.cells}};
+          {"hemicube_cells", c.cells},
+          {"hemicube_rows", c.rows},
+          {"hemicube_rows_empty", c.rows_empty},
+          {"skipped_behind", c.skipped_behind},
+          {"skipped_small", c.skipped_small},
+          {"skipped_convex", c.skipped_convex},
+          {"networks", c.networks},
+          {"rays_spared", c.rays_spared},
+          {"blockers_kept", c.blockers_kept},
+          {"blockers_rejected", c.blockers_rejected}};
 }
 
 Json shots(const urad_radiosity_counters& c) {
   return {{"shots", c.shots},
+          {"shots_empty", c.shots_empty},
           {"updates", c.updates},
           {"skipped_channel", c.skipped_channel},
           {"skipped_black", c.skipped_black},
@@ -78,12 +88,19 @@ std::string solve_json(const Scene& scene, const std::string& method, const Meth
   return json.dump(2) + "\n";
 }
 
-std::string exact_json(const Scene& scene, const ExactSolution& exact) {
+std::string exact_json(const Scene& scene, const ExactSolution& exact,
+                       const PairStatistics& pairs) {
   const Eigen::VectorXd sums = exact.form_factors.rowwise().sum();
   const Json json = {
       {"scene", facts(scene)},
       {"method", "exact"},
       {"form_factors", {{"row_least", sums.minCoeff()}, {"row_most", sums.maxCoeff()}}},
+      {"pairs",
+       {{"all", pairs.all},
+        {"facing", pairs.facing},
+        {"seen", pairs.seen},
+        {"partly", pairs.partly},
+        {"blocked", pairs.blocked}}},
       {"host_seconds", exact.seconds}};
   return json.dump(2) + "\n";
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "solve/pair_statistics.hpp"
 #include "solve/scene_solver.hpp"
 
 namespace host {
@@ -10,7 +11,7 @@ namespace host {
 /// solve, energy ledger, bytes.
 std::string solve_json(const Scene& scene, const std::string& method, const MethodRun& run);
 
-/// The same for the exact solution: seconds and row sums.
-std::string exact_json(const Scene& scene, const ExactSolution& exact);
+/// The same for the exact solution: seconds, row sums, and how many pairs see each other.
+std::string exact_json(const Scene& scene, const ExactSolution& exact, const PairStatistics& pairs);
 
 }  // namespace host

@@ -1,10 +1,12 @@
 #include "scene/blockers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "base/parallel.hpp"
 #include "scene/ray_scene.hpp"
@@ -44,6 +46,18 @@ bool has_both_sides(const Polygon& polygon, const std::vector<Vec3>& points) {
   return false;
 }
 
+// The same for both sides of a sheet.
+std::vector<std::array<double, 3>> sorted_corners(const Polygon& polygon) {
+  std::vector<std::array<double, 3>> corners;
+  const auto add = [&](const Loop& loop) {
+    for (const Vec3& x : loop) corners.push_back({x.x, x.y, x.z});
+  };
+  add(polygon.outer);
+  for (const Loop& hole : polygon.holes) add(hole);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 // Cosine-weighted direction about the normal.
 Vec3 hemisphere(const Vec3& normal, double s, double t) {
   const Vec3 other = std::abs(normal.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -61,8 +75,10 @@ std::vector<Blocker> find_blockers(const Scene& scene, const std::vector<Blocker
   parallel_for(polygons.size(), 0,
                [&](std::size_t k) { blocks[k] = has_both_sides(polygons[k].polygon, points); });
   std::vector<Blocker> found;
+  std::set<std::vector<std::array<double, 3>>> known;
   for (std::size_t k = 0; k < polygons.size(); ++k)
-    if (blocks[k]) found.push_back(polygons[k]);
+    if (blocks[k] && known.insert(sorted_corners(polygons[k].polygon)).second)
+      found.push_back(polygons[k]);
   return found;
 }
 

@@ -8,7 +8,8 @@ namespace host {
 
 /// Of `polygons`, those whose plane has patches (of scene.patches) on both sides. All others never
 /// block: a segment between patches stays on one side of them. A room's wall is none; a scene
-/// without any needs no visibility at all. "On a side" is further from the plane than 1e-5 of the
+/// without any needs no visibility at all. Of two polygons back to back, a two-sided sheet, only the
+/// first is kept. "On a side" is further from the plane than 1e-5 of the
 /// distance to the polygon's centre.
 std::vector<Blocker> find_blockers(const Scene& scene, const std::vector<Blocker>& polygons);
 

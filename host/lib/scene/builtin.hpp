@@ -16,7 +16,7 @@ struct EmbeddedFile {
 /// All of them, sorted by name (written by host/scenes/embed.cmake).
 std::vector<EmbeddedFile> embedded_files();
 
-/// Names of the built-in scenes, sorted: "cornell", "cube7".
+/// Names of the built-in scenes, sorted: cornell, cube7, gallery, louvre, room.
 std::vector<std::string> builtin_scenes();
 
 /// A built-in name, or a path that ends in .obj or .csv (a patch table; already cut, so that

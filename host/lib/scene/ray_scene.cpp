@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
@@ -10,12 +11,17 @@
 
 namespace host {
 
+// What single precision leaves open, of the size of the scene: a segment that ends this near to a
+// polygon's plane ends on it, and does not cross it.
+constexpr double kSamePlane = 1e-6;
+
 struct RayScene::Tables {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<int> surface;          // by triangle
   std::vector<std::size_t> polygon;  // by triangle
   std::vector<Vec3> normal;          // by polygon
+  std::vector<Vec3> on_plane;        // by polygon: a corner, in local coordinates
   Vec3 centre{0};
   double scale = 1;
 
@@ -27,30 +33,33 @@ struct RayScene::Tables {
     if (device) rtcReleaseDevice(device);
   }
   Vec3 local(const Vec3& x) const { return (x - centre) * scale; }
+  bool in_plane(std::size_t k, const Vec3& x) const {
+    return std::abs(glm::dot(normal[k], x - on_plane[k])) <= kSamePlane;
+  }
 };
 
 namespace {
 
 struct Context {
   RTCIntersectContext embree;  // first: Embree hands back a pointer to it
-  const int* surface_of_triangle;
+  const RayScene::Tables* tables;
   int skip_a, skip_b;
+  Vec3 start, end, direction;  // local; a ray without end has end = start
+  bool lit_only;
 };
 
-void leave_out_surfaces(const RTCFilterFunctionNArguments* arguments) {
+// The back of a two-sided sheet lies where its front does: neither stops what starts or ends there.
+void leave_out(const RTCFilterFunctionNArguments* arguments) {
   const auto* context = reinterpret_cast<const Context*>(arguments->context);
-  const int surface = context->surface_of_triangle[RTCHitN_primID(arguments->hit, 1, 0)];
-  if (surface >= 0 && (surface == context->skip_a || surface == context->skip_b))
+  const RayScene::Tables& tables = *context->tables;
+  const unsigned triangle = RTCHitN_primID(arguments->hit, 1, 0);
+  const int surface = tables.surface[triangle];
+  const std::size_t polygon = tables.polygon[triangle];
+  const bool own = surface >= 0 && (surface == context->skip_a || surface == context->skip_b);
+  const bool dark = context->lit_only && glm::dot(context->direction, tables.normal[polygon]) >= 0;
+  if (own || dark || tables.in_plane(polygon, context->start) ||
+      tables.in_plane(polygon, context->end))
     arguments->valid[0] = 0;
-}
-
-Context make_context(const std::vector<int>& surface, int skip_a, int skip_b) {
-  Context context{};
-  rtcInitIntersectContext(&context.embree);
-  context.surface_of_triangle = surface.data();
-  context.skip_a = skip_a;
-  context.skip_b = skip_b;
-  return context;
 }
 
 RTCRay make_ray(const Vec3& origin, const Vec3& direction, float end) {
@@ -78,6 +87,7 @@ RayScene::RayScene(const std::vector<Blocker>& polygons) {
   std::vector<Triangle> triangles;
   for (std::size_t k = 0; k < polygons.size(); ++k) {
     tables->normal.push_back(moments(polygons[k].polygon).normal);
+    tables->on_plane.push_back(tables->local(polygons[k].polygon.outer.front()));
     for (const Triangle& triangle : triangulate(polygons[k].polygon)) {
       triangles.push_back(triangle);
       tables->surface.push_back(polygons[k].surface);
@@ -113,23 +123,32 @@ RayScene::RayScene(const std::vector<Blocker>& polygons) {
 
 std::optional<RayScene::Hit> RayScene::first_hit(const Vec3& origin, const Vec3& direction,
                                                  int skip_surface) const {
-  Context context = make_context(tables_->surface, skip_surface, -1);
-  context.embree.filter = leave_out_surfaces;
-  RTCRayHit query{};
-  query.ray = make_ray(tables_->local(origin), direction * tables_->scale,
-                       std::numeric_limits<float>::infinity());
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(tables_->scene, &context.embree, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const std::size_t polygon = tables_->polygon[query.hit.primID];
-  return Hit{double(query.ray.tfar), polygon, glm::dot(direction, tables_->normal[polygon]) < 0};
+  const Vec3 start = tables_->local(origin), along = direction * tables_->scale;
+  const auto look = [&](bool lit_only) -> std::optional<Hit> {
+    Context context{{}, tables_.get(), skip_surface, -1, start, start, direction, lit_only};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = leave_out;
+    RTCRayHit query{};
+    query.ray = make_ray(start, along, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(tables_->scene, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const std::size_t polygon = tables_->polygon[query.hit.primID];
+    return Hit{double(query.ray.tfar), polygon, glm::dot(direction, tables_->normal[polygon]) < 0};
+  };
+  const std::optional<Hit> hit = look(false);
+  if (!hit || hit->front) return hit;
+  const std::optional<Hit> lit = look(true);
+  const bool same = lit && tables_->in_plane(hit->polygon, start + lit->distance * along);
+  return same ? lit : hit;
 }
 
 bool RayScene::blocked(const Vec3& a, const Vec3& b, int surface_a, int surface_b) const {
-  Context context = make_context(tables_->surface, surface_a, surface_b);
-  context.embree.filter = leave_out_surfaces;
-  const Vec3 start = tables_->local(a);
-  RTCRay ray = make_ray(start, tables_->local(b) - start, 1.0f);
+  const Vec3 start = tables_->local(a), end = tables_->local(b);
+  Context context{{}, tables_.get(), surface_a, surface_b, start, end, end - start, false};
+  rtcInitIntersectContext(&context.embree);
+  context.embree.filter = leave_out;
+  RTCRay ray = make_ray(start, end - start, 1.0f);
   rtcOccluded1(tables_->scene, &context.embree, &ray);
   return ray.tfar < 0;
 }

@@ -21,15 +21,17 @@ class RayScene {
   /// relative to the scene.
   explicit RayScene(const std::vector<Blocker>& polygons);
 
-  /// First polygon met by origin + t direction, t > 0, polygons of `skip_surface` left out.
+  /// First polygon met by origin + t direction, t > 0, polygons of `skip_surface` and those whose
+  /// plane holds the origin left out. Of a two-sided sheet, two polygons back to back, the lit side.
   std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction, int skip_surface) const;
 
-  /// Whether anything stands between a and b, polygons of the two surfaces left out. Surfaces are
-  /// planar, so that a segment from one cannot meet it again: no offset is needed at the ends.
+  /// Whether anything stands between a and b, polygons of the two surfaces left out, and those whose
+  /// plane holds a or b to 1e-6 of the scene: a segment that ends on a plane cannot cross it.
   bool blocked(const Vec3& a, const Vec3& b, int surface_a, int surface_b) const;
 
- private:
   struct Tables;
+
+ private:
   std::shared_ptr<const Tables> tables_;
 };
 

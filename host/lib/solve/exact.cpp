@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "base/error.hpp"
@@ -14,9 +15,14 @@
 namespace host {
 namespace {
 
+// By more than rounding: the two sides of a sheet do not face each other.
 bool reaches_front(const Polygon& polygon, const Moments& plane) {
-  return std::any_of(polygon.outer.begin(), polygon.outer.end(),
-                     [&](const Vec3& x) { return glm::dot(plane.normal, x - plane.centroid) > 0; });
+  return std::any_of(polygon.outer.begin(), polygon.outer.end(), [&](const Vec3& x) {
+    const Vec3 d = x - plane.centroid;
+    const double rounding =
+        1e-12 * glm::length(d) + 16 * std::numeric_limits<double>::epsilon() * glm::length(x);
+    return glm::dot(plane.normal, d) > rounding;
+  });
 }
 
 Eigen::VectorXd channel_of(const Scene& scene, int channel, Vec3 Material::*value) {

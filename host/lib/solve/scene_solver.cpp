@@ -103,7 +103,7 @@ const ExactSolution& SceneSolver::exact() {
 }
 
 EngineRows SceneSolver::rows_of(const MethodSpec& spec, const NetChoice& nets) {
-  if (is_engine_method(spec)) return engine_rows(fixed_, spec, nets, {}, threads_);
+  if (is_engine_method(spec)) return engine_rows(fixed_, spec, nets, options_, threads_);
   const FreePairMethod method = pair_method(spec, nets);
   const EmbreeVisibility visibility(scene_, rays_);
   Progress progress(spec.text(), scene_.patches.size() * scene_.patches.size() / 2, quiet_);
@@ -138,7 +138,7 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   if (scene_.closed && spec.name != "hemicube") {  // a hemicube's rows sum to 1 by themselves
     run.scale = symmetric_scale(scene_, f);
     fixed_.set_scale(run.scale);
-    repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, {}, threads_)
+    repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, options_, threads_)
                                            : scaled(run.rows, run.scale);
   }
   const std::vector<Vec3> converged = exact_radiosity(scene_, gathered(scene_, repaired_rows));

@@ -35,6 +35,9 @@ class SceneSolver {
   /// rays: pairs of points per pair of patches for the exact visibility.
   SceneSolver(const Scene& scene, int threads, bool quiet, int rays = 1024);
 
+  /// How methods of the engine are to run from now on.
+  void use(const EngineOptions& options) { options_ = options; }
+
   const Scene& scene() const { return scene_; }
   const FixedScene& fixed() const { return fixed_; }
   /// Computed once, at the first call.
@@ -51,6 +54,7 @@ class SceneSolver {
   int threads_;
   bool quiet_;
   int rays_;
+  EngineOptions options_;
   std::optional<ExactSolution> exact_;
 };
 
