@@ -69,14 +69,21 @@ class Allowance {
   SmallExchange limit_{kNoExchange, kNoExchange};
 };
 
-uint32_t seen_uq16(const PairSource& source, const Patch& i, const Patch& j) noexcept {
+uint32_t seen_uq16(const PairSource& source, const Patch& i, const Patch& j,
+                   int32_t log2_g_q24) noexcept {
   if (source.rays == 0) return kAllVisible_uq16;
   if ((source.scene->flags & URAD_SCENE_CONVEX) && !(source.skips_off & skip_off_convex)) {
     ++source.counters->skipped_convex;
     return kAllVisible_uq16;
   }
-  return visible_fraction_uq16(*source.scene, i, j, source.rays, true, source.counters,
-                               !(source.skips_off & skip_off_blockers));
+  const bool reject = !(source.skips_off & skip_off_blockers);
+  if (source.error_uq32 == 0) {
+    return visible_fraction_uq16(*source.scene, i, j, source.rays, true, source.counters, reject);
+  }
+  const int32_t a_i = i.shape->log2_area_q24, a_j = j.shape->log2_area_q24;
+  const uint32_t f_uq32 = form_factor_uq32(log2_g_q24, a_i < a_j ? a_i : a_j);
+  return adaptive_fraction_uq16(*source.scene, i, j, {source.rays, source.depth, source.error_uq32},
+                                f_uq32, source.counters, reject);
 }
 
 }  // namespace
@@ -113,7 +120,8 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
       allowance.book(scale);
       if (log2_g_q24 != kNoExchange) {
         const uint32_t f = form_factor_uq32(log2_g_q24 + scale, from.shape->log2_area_q24);
-        f_uq32[k] = uint32_t((uint64_t{f} * seen_uq16(source, from, receiver) + 0x8000u) >> 16);
+        const uint32_t seen = seen_uq16(source, from, receiver, log2_g_q24);
+        f_uq32[k] = uint32_t((uint64_t{f} * seen + 0x8000u) >> 16);
       }
     }
     if (k + 1 < count) patch_advance(&receiver);

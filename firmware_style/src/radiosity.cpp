@@ -210,6 +210,10 @@ void guard(Radiosity* s) noexcept {
 
 Status radiosity_step(Radiosity* s) noexcept {
   if (s->status != URAD_OK) return Status(s->status);
+  if (s->flags & kStale) {
+    s->flags = uint8_t(s->flags & ~kStale);
+    survey(s);
+  }
   const bool empty = s->remaining == 0;
   s->counters.shots_empty += empty;
   if (empty && !(s->flags & URAD_SKIP_OFF_UNSHOT)) return Status::ok;
@@ -243,6 +247,18 @@ Status radiosity_step(Radiosity* s) noexcept {
     guard(s);
   }
   return Status(s->status);
+}
+
+Status radiosity_steps(Radiosity* s, uint32_t budget, uint32_t error_uq32,
+                       uint32_t* shots) noexcept {
+  Status status = Status(s->status);
+  const uint32_t before = s->counters.shots;
+  while (status == Status::ok && s->counters.shots - before < budget &&
+         !radiosity_done(*s, error_uq32)) {
+    status = radiosity_step(s);
+  }
+  if (shots) *shots = s->counters.shots - before;
+  return status;
 }
 
 }  // namespace urad

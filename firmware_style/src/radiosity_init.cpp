@@ -56,8 +56,8 @@ struct Emission {
                                        uint32_t place) noexcept {
   Emission e{{0, 0, 0}, 0};
   for (int c = 0; c < 3; ++c) {
-    e.power[c] = times_exp2(scene.material[surface.material].exitance[c],
-                            int64_t{log2_area_of(surface, place)} + scene.log2_power_q24);
+    e.power[c] =
+        power_of(scene, scene.material[surface.material].exitance[c], log2_area_of(surface, place));
     e.key += magnitude(e.power[c]);
   }
   return e;
@@ -79,6 +79,12 @@ uint16_t longest_run(const urad_scene& scene) noexcept {
     if (scene.surface[k].patch_count > longest) longest = scene.surface[k].patch_count;
   }
   return longest;
+}
+
+void measure_scene(urad_radiosity* state) noexcept {
+  const Areas areas = areas_of(*state->scene);
+  state->log2_area_q24 = areas.log2_largest_q24 + log2_q24(areas.sum_uq31) - (31 << 24);
+  for (int c = 0; c < 3; ++c) state->reflectance_uq16[c] = areas.mean_uq16(c);
 }
 
 Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_source& source,
@@ -103,9 +109,7 @@ Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_sour
   state->longest_run = run;
   state->flags = uint8_t(flags);
 
-  const Areas areas = areas_of(*scene);
-  state->log2_area_q24 = areas.log2_largest_q24 + log2_q24(areas.sum_uq31) - (31 << 24);
-  for (int c = 0; c < 3; ++c) state->reflectance_uq16[c] = areas.mean_uq16(c);
+  measure_scene(state);
   state->closure_uq16 = 65536;
   uint64_t most = 0;
   for_each_patch(*scene, [&](const urad_surface& surface, uint32_t place) {

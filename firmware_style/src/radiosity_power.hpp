@@ -2,6 +2,7 @@
 #pragma once
 #include "urad/log2.hpp"
 #include "urad/radiosity.h"
+#include "urad/scene.h"
 
 namespace urad {
 
@@ -22,6 +23,17 @@ constexpr uint32_t effective_reflectance_uq16(const urad_radiosity& s, int chann
 constexpr uint32_t gain_uq16(uint32_t reflectance_uq16) noexcept {
   const uint32_t absorbing = reflectance_uq16 < 65536u - 64u ? 65536u - reflectance_uq16 : 64u;
   return exp2_uq((16 << 24) - log2_q24(absorbing), 16);
+}
+
+/// Total area and mean reflectances, from the scene as it is.
+void measure_scene(urad_radiosity* state) noexcept;
+
+/// In urad_radiosity.flags: `shooter` is out of date.
+inline constexpr uint8_t kStale = 128;
+
+/// Power of an exitance on a patch.
+inline int64_t power_of(const urad_scene& scene, int32_t exitance, int32_t log2_area_q24) noexcept {
+  return times_exp2(exitance, int64_t{log2_area_q24} + scene.log2_power_q24);
 }
 
 inline int32_t log2_area_of(const urad_surface& surface, uint32_t place) noexcept {

@@ -176,6 +176,36 @@ urad_status urad_radiosity_display(const urad_radiosity* state, uint16_t patch, 
   return URAD_OK;
 }
 
+urad_status urad_radiosity_steps(urad_radiosity* state, uint32_t budget, uint32_t error_uq32,
+                                 uint32_t* shots) {
+  return state ? c_status(urad::radiosity_steps(state, budget, error_uq32, shots))
+               : URAD_BAD_ARGUMENT;
+}
+
+urad_status urad_radiosity_relight_init(urad_radiosity* state, void* memory, size_t bytes) {
+  return c_status(urad::radiosity_relight_init(state, memory, bytes));
+}
+
+urad_status urad_radiosity_set_emission(urad_radiosity* state, uint16_t patch,
+                                        const int32_t* exitance) {
+  return c_status(urad::radiosity_set_emission(state, patch, exitance));
+}
+
+urad_status urad_radiosity_set_reflectance(urad_radiosity* state, urad_material* material,
+                                           const uint16_t* reflectance_uq15) {
+  return c_status(urad::radiosity_set_reflectance(state, material, reflectance_uq15));
+}
+
+urad_status urad_light_mix(const urad_light* light, uint16_t lights, uint16_t patches,
+                           uint32_t* radiosity) {
+  if (!light || !radiosity || lights > 32767) return URAD_BAD_ARGUMENT;
+  for (uint32_t k = 0; k < lights; ++k) {
+    if (!light[k].basis) return URAD_BAD_ARGUMENT;
+  }
+  urad::light_mix(light, lights, patches, radiosity);
+  return URAD_OK;
+}
+
 int urad_radiosity_audit(const urad_radiosity* state, urad_ledger* ledger) {
   return state && urad::radiosity_audit(*state, ledger);
 }

@@ -8,6 +8,8 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "net_option.hpp"
+#include "report/animation.hpp"
+#include "report/apng.hpp"
 #include "report/instructions.hpp"
 #include "report/ply.hpp"
 #include "report/report_html.hpp"
@@ -28,6 +30,7 @@ struct Options {
   std::string methods = "exact,net,hemicube:64,hybrid:64", net, folder, instructions;
   double error = 0.001;
   int size = 480;
+  bool animate = false;
 };
 
 std::string command_of(const Options& options) {
@@ -37,6 +40,7 @@ std::string command_of(const Options& options) {
   if (options.scene.mesh.patch_size > 0)
     text += fmt::format(" --patch-size {}", options.scene.mesh.patch_size);
   if (options.error != Options{}.error) text += fmt::format(" --error {}", options.error);
+  if (options.animate) text += " --animate";
   if (options.size != Options{}.size) text += fmt::format(" --size {}", options.size);
   if (!options.net.empty()) text += " --net " + options.net;
   return text + " -o " + options.folder;
@@ -121,6 +125,25 @@ void add_method(const fs::path& folder, const host::Scene& scene, const host::Me
   files->push_back({stem + ".ply", host::ply(scene, mesh, method.B, white)});
 }
 
+/// A strip of light that moves and a wall that is painted, each as animated PNG and table.
+void write_animations(const fs::path& folder, const host::Scene& scene,
+                      const host::EngineRows& rows, const host::PictureOptions& pictures,
+                      host::BakeReport* report) {
+  host::AnimationOptions options;
+  options.picture = pictures;
+  const auto write = [&](const std::string& name, const host::Animation& animation,
+                         const std::string& what) {
+    host::write_file_atomically((folder / (name + ".png")).string(),
+                                host::apng(animation.frames, 33));
+    host::write_file_atomically((folder / (name + ".csv")).string(), animation.table);
+    report->files.push_back({name + ".png, .csv", what});
+  };
+  write("moving_strip", host::animate_strip(scene, rows, options),
+        "a strip of light that moves over the lamp, 20 shots a frame, and the error of each frame");
+  write("painted_wall", host::animate_wall(scene, rows, options),
+        "a wall that is painted, 20 shots a frame, and the error of each frame");
+}
+
 void run(const Options& options, const Common& common) {
   const Nets nets(options.net);
   const host::Scene scene = options.scene.load();
@@ -148,6 +171,7 @@ void run(const Options& options, const Common& common) {
   goal.error = options.error;
   const std::string name = host::c_identifier(scene.name);
   std::string light, scene_arrays;
+  host::EngineRows rows;
   for (const host::MethodSpec& spec : host::parse_methods(options.methods)) {
     if (!common.quiet) fmt::print(stderr, "{}: {}\n", options.scene.name, spec.text());
     if (spec.name == "exact") {
@@ -161,6 +185,7 @@ void run(const Options& options, const Common& common) {
           "would do",
           options.scene.name, spec.text(), int(run.solution.status)));
     }
+    if (rows.patches == 0) rows = run.repaired;
     host::MethodResult result = method_result(spec.text(), run);
     if (counts) {
       result.m0_instructions_per_pair = counts->per_pair(spec.text());
@@ -181,6 +206,11 @@ void run(const Options& options, const Common& common) {
   pictures.width = pictures.height = options.size;
   pictures.threads = common.threads;
   host::add_pictures(scene, pictures, &report);
+  if (options.animate) {
+    if (rows.patches == 0)
+      throw host::UsageError("--animate needs a method of the engine beside exact, such as net");
+    write_animations(folder, scene, rows, pictures, &report);
+  }
   const host::CornerMesh mesh = host::merge_corners(scene);
   const double white = host::white_level(scene, solver.exact().radiosity);
   std::vector<host::OutputFile> files;
@@ -214,6 +244,9 @@ void add_bake(CLI::App& app, const Common& common) {
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height of the pictures")
       ->check(CLI::Range(16, 4096));
+  command->add_flag("--animate", options->animate,
+                    "Also animated PNGs of light that changes: a strip of the lamp that moves, a "
+                    "wall that is painted; by the first method's factors");
   command->add_option("--instructions", options->instructions,
                       "Counted Cortex-M0 instructions (bench/icount)");
   command->add_option("-o,--out", options->folder, "Folder to write into")->required();

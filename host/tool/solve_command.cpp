@@ -22,7 +22,7 @@ struct Options {
   std::optional<int> shots;
   double error = 0.01;
   int rays = 1024;
-  double bound = 0;
+  host::EngineOptions engine;
 };
 
 std::string radiosity_table(const host::Scene& scene, const std::vector<host::Vec3>& radiosity) {
@@ -70,7 +70,7 @@ void run(const Options& options, const Common& common) {
   const host::MethodSpec spec = host::parse_method(options.method);
   const host::Scene scene = options.scene.load();
   host::SceneSolver solver(scene, common.threads, common.quiet, options.rays);
-  solver.use({.bound = options.bound});
+  solver.use(options.engine);
   if (spec.name == "exact") {
     const host::ExactSolution& exact = solver.exact();
     if (!options.rows.empty()) {
@@ -140,10 +140,24 @@ void add_solve(CLI::App& app, const Common& common) {
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   command
-      ->add_option("--bound", options->bound,
+      ->add_option("--bound", options->engine.bound,
                    "Pair methods: leave out small factors as long as no row loses more than this; "
                    "0: none")
       ->check(CLI::Range(0.0, 0.5));
+  command
+      ->add_option("--pair-rays", options->engine.rays,
+                   "Rays a pair by the engine, where something may stand between")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--ray-error", options->engine.ray_error,
+                   "Pair methods: the fewer rays, the further a form factor is below this; 0: the "
+                   "same for all")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--cuts", options->engine.cuts,
+                   "With --ray-error: cut patches so often where rays disagree")
+      ->check(CLI::Range(0, 6));
   command->add_option("--out", options->out, "CSV of the solution (\"-\": standard output)")
       ->required();
   command->add_option("--rows", options->rows, "CSV of all form factors, before repair");

@@ -81,6 +81,11 @@ struct PairSource {
   PairExchange exchange = nullptr;  ///< not null: every pair by this, as by cheapest_of_source()
   uint32_t* ways = nullptr;         ///< for `exchange`: counts of ways taken, or null
 
+  /// Not 0: rays by the worth of a pair, with `depth` cuts where they disagree (visibility.hpp,
+  /// AdaptiveRays; `rays` the most at a time). 0: `rays` for every pair.
+  uint32_t error_uq32 = 0;
+  uint8_t depth = 0;
+
   /// Bounded contribution, the one skip that changes light: factors of at most 8 bound /
   /// patch_count are taken as 0 before network and rays, as long as those of the row together (each
   /// as twice its kernel) stay within `bound`, UQ0.32. All B together, weighted by area, then lose

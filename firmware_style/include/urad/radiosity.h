@@ -16,6 +16,9 @@
 #define URAD_RADIOSITY_BYTES(patch_count, longest_run) \
   ((size_t)24 * (patch_count) + (size_t)4 * (longest_run))
 
+/* Bytes more for light that changes: the emitted power of every patch, 12 each. */
+#define URAD_RELIGHT_BYTES(patch_count) ((size_t)12 * (patch_count))
+
 /* |red| + |green| + |blue| of the unshot power of a patch stays below this, or the solve stops. */
 #define URAD_POWER_LIMIT 1073741824 /* 2^30 */
 
@@ -64,7 +67,7 @@ typedef struct urad_radiosity {
   uint16_t shooter;             /* the next one */
   uint16_t window_shots;        /* shots since the divergence guard looked */
   uint8_t window_strikes;       /* times in a row it found too little progress */
-  uint8_t flags;                /* URAD_OVERSHOOT, URAD_SKIP_OFF_* */
+  uint8_t flags;                /* URAD_OVERSHOOT, URAD_SKIP_OFF_*; 128: look for the shooter again */
   uint8_t status;               /* urad_status; once not URAD_OK, it stays */
   uint64_t remaining;           /* sum of |unshot| over patches and channels */
   uint64_t window_remaining;    /* the same when the guard looked last */
@@ -75,5 +78,12 @@ typedef struct urad_radiosity {
   urad_ledger ledger;
   urad_radiosity_counters counters;
 } urad_radiosity;
+
+/* One light of several whose colours change: B that it makes alone, and how bright it is now. B is
+ * linear in the lights, so that this needs no shots. */
+typedef struct urad_light {
+  const uint16_t* basis;   /* [patch_count][3], B of this light at colour 1, in any unit */
+  uint16_t colour_uq15[3]; /* 0 .. 65535; 32768 = 1 */
+} urad_light;
 
 #endif

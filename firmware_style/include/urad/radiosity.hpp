@@ -69,6 +69,11 @@ Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_sour
 /// source's.
 Status radiosity_step(Radiosity* state) noexcept;
 
+/// Steps until done at error_uq32 or `budget` shots are made, whichever comes first: what a renderer
+/// calls once a frame. *shots (may be null): how many were made. Failure: as radiosity_step().
+Status radiosity_steps(Radiosity* state, uint32_t budget, uint32_t error_uq32,
+                       uint32_t* shots) noexcept;
+
 /// Estimate of the relative rms error of B, UQ0.32 saturating: what is still to be reflected over
 /// all that will be,
 ///
@@ -85,6 +90,36 @@ uint32_t radiosity_error_uq32(const Radiosity& state) noexcept;
 /// True when that estimate is at most error_uq32 (1 % = 42949673), or the solve has stopped with a
 /// status.
 bool radiosity_done(const Radiosity& state, uint32_t error_uq32) noexcept;
+
+/// Makes ready for light that changes during a solve [Chen 1990]: keeps what every patch emits in
+/// `memory` (4-byte aligned, URAD_RELIGHT_BYTES, the caller's, kept). To be called while the
+/// scene's materials are those of radiosity_init(). bad_argument, out_of_memory: nothing is written.
+Status radiosity_relight_init(Radiosity* state, void* memory, size_t bytes) noexcept;
+
+/// From now on patch `patch` emits `exitance` (0 .. 2^30, the scene's unit) instead of what it did:
+/// the difference, of either sign, becomes unshot power, and the steps that follow lead from the
+/// present light to the one that a solve from the start would reach, within the error asked for.
+/// Cost: 400 instructions, and one look over all patches at the next step.
+///
+/// bad_argument: not ready, no such patch, exitance out of range. overflow: a power would reach
+/// URAD_POWER_LIMIT. Nothing is then written.
+Status radiosity_set_emission(Radiosity* state, uint16_t patch, const int32_t* exitance) noexcept;
+
+/// Gives one material of the scene, which must be in RAM, another reflectance (UQ1.15, <= 32768).
+/// What its patches have reflected so far grows or shrinks in proportion, and the difference becomes
+/// unshot power. Cost: 500 instructions a patch of the material, 300 for every other.
+///
+/// bad_argument: not ready, `material` not in the scene's table, reflectance out of range, or 0 so
+/// far in a channel that is to reflect: a black wall keeps no trace of the light that met it, so
+/// the solve has to start again (any reflectance from 1/64 on will do to begin with). overflow as
+/// above. Nothing is then written.
+Status radiosity_set_reflectance(Radiosity* state, urad_material* material,
+                                 const uint16_t* reflectance_uq15) noexcept;
+
+/// Radiosity of `patches` patches under up to 32767 lights, [patches][3]: the sum of basis * colour,
+/// each product rounded.
+void light_mix(const urad_light* light, uint16_t lights, uint16_t patches,
+               uint32_t* radiosity) noexcept;
 
 /// Radiosity B of a patch in the scene's exitance unit, rounded, saturating. patch < patch_count,
 /// channel < 3 (unchecked).

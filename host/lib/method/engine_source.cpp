@@ -76,6 +76,8 @@ struct EngineSource::State {
 
   void use_pairs(urad::Kernel kernel, const urad_net* net, const EngineOptions& options) {
     pairs = {scene, net, kernel, std::uint16_t(options.rays), options.skips, &counters, 0};
+    pairs.depth = std::uint8_t(options.cuts);
+    pairs.error_uq32 = std::uint32_t(options.ray_error * 4294967296.0);
     pairs.bound_uq32 = std::uint32_t(options.bound * 4294967296.0);
     source = {urad::pair_fill, &pairs};
     ram = sizeof pairs;

@@ -17,6 +17,8 @@ namespace host {
 struct EngineOptions {
   int rays = 64;            ///< visibility rays a pair, where the scene is not convex
   std::uint32_t skips = 0;  ///< urad::SkipOff bits: skips switched off
+  double ray_error = 0;     ///< pairs: fewer rays for factors below this; 0: `rays` for all
+  int cuts = 0;             ///< with it: cuts of patches where rays disagree
   bool all_rows = false;    ///< the hemicube sums faces and rows that nothing touched, too
   double bound = 0;         ///< pairs: no row may lose more by leaving out small factors; 0: none
 };

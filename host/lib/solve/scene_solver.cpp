@@ -142,6 +142,7 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
                                            : scaled(run.rows, run.scale);
   }
   const std::vector<Vec3> converged = exact_radiosity(scene_, gathered(scene_, repaired_rows));
+  run.repaired = repaired_rows;
   run.solution = fixed_solve(scene_, fixed_, repaired_rows, converged, goal);
   run.rms = relative_rms(scene_, run.solution.radiosity, exact().radiosity);
   run.max = relative_max(scene_, run.solution.radiosity, exact().radiosity);

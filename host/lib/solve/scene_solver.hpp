@@ -24,6 +24,7 @@ struct FactorErrors {
 
 struct MethodRun {
   EngineRows rows;            ///< before repair
+  EngineRows repaired;        ///< what the engine solved with
   std::vector<double> scale;  ///< repair; empty when the scene is open
   FactorErrors factors;
   FixedSolution solution;

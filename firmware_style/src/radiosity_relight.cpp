@@ -1,0 +1,177 @@
+// Light that changes: signed differences become unshot power [Chen 1990], or lights are mixed.
+#include "radiosity_power.hpp"
+#include "urad/patch.hpp"
+#include "urad/radiosity.hpp"
+#include "urad/ratio.hpp"
+
+namespace urad {
+
+namespace {
+
+uint64_t key_of(const int32_t* unshot) noexcept {
+  return uint64_t{magnitude(unshot[0])} + magnitude(unshot[1]) + magnitude(unshot[2]);
+}
+
+/// Unshot power of a patch with `delta` more of it.
+struct Changed {
+  int64_t unshot[3];
+  bool fits;
+};
+
+Changed changed(const Radiosity& s, uint32_t patch, const int64_t* delta) noexcept {
+  Changed result{{0, 0, 0}, true};
+  uint64_t key = 0;
+  for (uint32_t c = 0; c < 3; ++c) {
+    result.unshot[c] = s.unshot[3 * patch + c] + delta[c];
+    key += magnitude(result.unshot[c]);
+  }
+  result.fits = key < URAD_POWER_LIMIT;
+  return result;
+}
+
+void write(Radiosity* s, uint32_t patch, const Changed& to) noexcept {
+  int32_t* const unshot = s->unshot + 3 * patch;
+  s->remaining -= key_of(unshot);
+  for (uint32_t c = 0; c < 3; ++c) {
+    s->ledger.unshot[c] += to.unshot[c] - unshot[c];
+    unshot[c] = int32_t(to.unshot[c]);
+  }
+  s->remaining += key_of(unshot);
+}
+
+/// The guard looks at the new light from its start.
+void begin_again(Radiosity* s) noexcept {
+  s->flags |= kStale;
+  s->window_shots = 0;
+  s->window_strikes = 0;
+  s->window_remaining = s->remaining;
+}
+
+/// What one patch of a material reflects more than it did when its reflectance changes.
+bool reflected_more(const Radiosity& s, uint32_t patch, const urad_material& from,
+                    const uint16_t* to_uq15, int64_t* more) noexcept {
+  for (uint32_t c = 0; c < 3; ++c) {
+    const uint32_t at = 3 * patch + c;
+    const int64_t reflected = int64_t{s.shot[at]} + s.unshot[at] - s.emitted[at];
+    const int32_t rise = int32_t(to_uq15[c]) - from.reflectance_uq15[c];
+    more[c] = 0;
+    if (reflected == 0 || rise == 0) continue;
+    // |reflected| < 2^33 and |rise| <= 2^15; rounded by adding half the divisor.
+    const uint32_t old = from.reflectance_uq15[c];
+    const uint64_t product = magnitude(reflected) * magnitude(rise) + old / 2;
+    const int64_t size = ratio_q(int64_t(product), old, 0);
+    more[c] = (reflected < 0) == (rise < 0) ? size : -size;
+  }
+  return changed(s, patch, more).fits;
+}
+
+template <typename Visit>
+bool for_each_patch_of(const urad_scene& scene, uint32_t material, Visit visit) noexcept {
+  for (uint32_t k = 0; k < scene.surface_count; ++k) {
+    const urad_surface& surface = scene.surface[k];
+    if (surface.material != material) continue;
+    for (uint32_t place = 0; place < surface.patch_count; ++place) {
+      if (!visit(surface.first_patch + place)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Status radiosity_relight_init(Radiosity* s, void* memory, size_t bytes) noexcept {
+  if (!s || !memory) return Status::bad_argument;
+  const urad_scene& scene = *s->scene;
+  if (bytes < URAD_RELIGHT_BYTES(scene.patch_count) || reinterpret_cast<uintptr_t>(memory) % 4) {
+    return Status::out_of_memory;
+  }
+  s->emitted = static_cast<int32_t*>(memory);
+  for (uint32_t k = 0; k < scene.surface_count; ++k) {
+    const urad_surface& surface = scene.surface[k];
+    const urad_material& material = scene.material[surface.material];
+    for (uint32_t place = 0; place < surface.patch_count; ++place) {
+      int32_t* const emitted = s->emitted + 3 * (surface.first_patch + place);
+      for (int c = 0; c < 3; ++c) {
+        // Fits: radiosity_init() has looked.
+        emitted[c] = int32_t(power_of(scene, material.exitance[c], log2_area_of(surface, place)));
+      }
+    }
+  }
+  return Status::ok;
+}
+
+Status radiosity_set_emission(Radiosity* s, uint16_t patch, const int32_t* exitance) noexcept {
+  if (!s || !s->emitted || !exitance || patch >= s->scene->patch_count) {
+    return Status::bad_argument;
+  }
+  const urad_surface& surface = s->scene->surface[surface_of(*s->scene, patch)];
+  const int32_t log2_area_q24 = log2_area_of(surface, uint32_t(patch - surface.first_patch));
+  int32_t* const emitted = s->emitted + 3 * patch;
+  int64_t power[3], delta[3];
+  uint64_t key = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (exitance[c] < 0 || exitance[c] > 1 << 30) return Status::bad_argument;
+    power[c] = power_of(*s->scene, exitance[c], log2_area_q24);
+    delta[c] = power[c] - emitted[c];
+    key += magnitude(power[c]);
+  }
+  const Changed to = changed(*s, patch, delta);
+  if (key >= URAD_POWER_LIMIT || !to.fits) return Status::overflow;
+  write(s, patch, to);
+  for (int c = 0; c < 3; ++c) {
+    emitted[c] = int32_t(power[c]);
+    s->ledger.emitted[c] += delta[c];
+  }
+  begin_again(s);
+  return Status::ok;
+}
+
+Status radiosity_set_reflectance(Radiosity* s, urad_material* material,
+                                 const uint16_t* reflectance_uq15) noexcept {
+  if (!s || !s->emitted || !material || !reflectance_uq15) return Status::bad_argument;
+  const urad_scene& scene = *s->scene;
+  uint32_t number = 0;
+  while (number < scene.material_count && scene.material + number != material) ++number;
+  if (number == scene.material_count) return Status::bad_argument;
+  for (int c = 0; c < 3; ++c) {
+    const uint16_t to = reflectance_uq15[c];
+    if (to > 32768 || (to != 0 && material->reflectance_uq15[c] == 0)) return Status::bad_argument;
+  }
+  int64_t more[3];
+  const bool fits = for_each_patch_of(scene, number, [&](uint32_t patch) {
+    return reflected_more(*s, patch, *material, reflectance_uq15, more);
+  });
+  if (!fits) return Status::overflow;
+  for_each_patch_of(scene, number, [&](uint32_t patch) {
+    reflected_more(*s, patch, *material, reflectance_uq15, more);
+    write(s, patch, changed(*s, patch, more));
+    for (int c = 0; c < 3; ++c) {
+      s->reflected[c] += more[c];
+      s->ledger.absorbed[c] -= more[c];
+    }
+    return true;
+  });
+  for (int c = 0; c < 3; ++c) material->reflectance_uq15[c] = reflectance_uq15[c];
+  measure_scene(s);
+  begin_again(s);
+  return Status::ok;
+}
+
+void light_mix(const urad_light* light, uint16_t lights, uint16_t patches,
+               uint32_t* radiosity) noexcept {
+  for (uint32_t c = 0; c < 3; ++c) {
+    uint32_t* out = radiosity + c;
+    const uint32_t* const end = out + 3u * patches;
+    for (; out != end; out += 3) *out = 0;
+    for (uint32_t k = 0; k < lights; ++k) {
+      const uint32_t colour = light[k].colour_uq15[c];
+      if (colour == 0) continue;
+      const uint16_t* basis = light[k].basis + c;
+      for (out = radiosity + c; out != end; out += 3, basis += 3) {
+        *out += (*basis * colour + 0x4000u) >> 15;
+      }
+    }
+  }
+}
+
+}  // namespace urad

@@ -1,0 +1,134 @@
+// All-or-nothing rays: where rays between two patches disagree, smaller parts are asked.
+#include "urad/vec.hpp"
+#include "visibility_rays.hpp"
+
+namespace urad {
+
+namespace {
+
+/// A part of the one patch as seen from a part of the other: cells of 2^-level in x and y.
+struct Part {
+  uint8_t level[2];
+  uint8_t x[2], y[2];
+  uint8_t cuts() const noexcept { return uint8_t(level[0] + level[1]); }
+};
+
+constexpr uint32_t within(uint32_t u_uq31, uint8_t cell, uint8_t level) noexcept {
+  return (uint32_t{cell} << (31 - level)) + (u_uq31 >> level);
+}
+
+struct Pieces {
+  const Patch* patch[2];
+  const PatchSampler* sampler[2];
+
+  bool point(int side, const Part& part, uint32_t x_uq31, uint32_t y_uq31,
+             urad_point* p) const noexcept {
+    return sampler[side]->point(within(x_uq31, part.x[side], part.level[side]),
+                                within(y_uq31, part.y[side], part.level[side]), p);
+  }
+
+  /// The side whose part is the larger.
+  int larger(const Part& part) const noexcept {
+    const auto log2_size_q24 = [&](int side) {
+      return patch[side]->shape->log2_spread_q24 - part.level[side] * (2 << 24);
+    };
+    return log2_size_q24(0) >= log2_size_q24(1) ? 0 : 1;
+  }
+};
+
+/// Points beside a polygon that is no parallelogram bring nothing, which is their share.
+struct Asked {
+  Sums sums;
+  int made = 0;
+};
+
+Asked ask(const Pieces& pieces, const Part& part, int rays, Sequence* sequence,
+          Candidates* candidates, urad_counters* counters) noexcept {
+  Asked asked;
+  int weighed = 0;
+  for (int tries = (part.cuts() ? 4 : 16) * rays; weighed < rays && tries > 0; --tries) {
+    ++asked.made;
+    urad_point a, b;
+    sequence->advance();
+    if (!pieces.point(0, part, sequence->uq31(0), sequence->uq31(1), &a)) continue;
+    if (!pieces.point(1, part, sequence->uq31(2), sequence->uq31(3), &b)) continue;
+    const Scaled weight = weight_of(*pieces.patch[0]->shape, *pieces.patch[1]->shape, b - a);
+    if (weight.mantissa == 0) continue;
+    ++weighed;
+    asked.sums.add(weight, !candidates->stop(a, b, counters), false);
+  }
+  counters->rays += uint32_t(rays);
+  return asked;
+}
+
+/// Adds the mean of a part's rays, times its share of both areas.
+void collect(const Part& part, const Asked& from, Sums* to) noexcept {
+  for (int k = 0; k < 2; ++k) {
+    const bool open = k != 0;
+    Scaled share = from.sums.total(open) / scaled(uint64_t(from.made));
+    share.exponent -= 2 * part.cuts();
+    to->add(share, open, false);
+  }
+}
+
+constexpr int greatest(int a, int b) noexcept { return a < b ? b : a; }
+
+constexpr int clamped(int x, int low, int high) noexcept {
+  return x < low ? low : x > high ? high : x;
+}
+
+}  // namespace
+
+uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& one, const Patch& other,
+                                const AdaptiveRays& plan, uint32_t f_uq32, urad_counters* counters,
+                                bool reject) noexcept {
+  const int rays = clamped(plan.rays, 4, 256), depth = clamped(plan.depth, 0, kMaxDepth);
+  if (closer_than(one, other, kTouching_uq16)) {
+    return visible_fraction_uq16(scene, one, other, uint16_t(rays), true, counters, reject);
+  }
+  const bool in_order = one.index <= other.index;
+  const Patch &i = in_order ? one : other, &j = in_order ? other : one;
+  Candidates candidates(scene, i, j, reject, counters);
+  if (candidates.empty()) {
+    counters->rays_spared += uint32_t(rays);
+    return kAllVisible_uq16;
+  }
+  const PatchSampler on_i(scene, i), on_j(scene, j);
+  const Pieces pieces{{&i, &j}, {&on_i, &on_j}};
+  Sequence sequence(i.index, j.index);
+  Sums sums;
+  Part stack[3 * kMaxDepth + 1];
+  int parts = 0;
+  stack[parts++] = {{0, 0}, {0, 0}, {0, 0}};
+  // The error of n rays falls by half when n is doubled
+  // and a bit more: pairs with a quarter of the factor can do with half the rays.
+  int log2_first = top_bit(uint32_t(rays));
+  for (uint32_t e = plan.error_uq32; log2_first > 2 && f_uq32 <= e; e >>= 2) --log2_first;
+  const int log2_later = greatest(3, log2_first > 5 ? log2_first - 1 : log2_first);
+  while (parts > 0) {
+    const Part part = stack[--parts];
+    const int log2_rays = part.cuts() ? log2_later : log2_first;
+    const Asked asked = ask(pieces, part, 1 << log2_rays, &sequence, &candidates, counters);
+    const bool agree = asked.sums.all_open() || asked.sums.all_shut();
+    if (agree || part.cuts() == depth || f_uq32 >> (2 * part.cuts()) <= plan.error_uq32) {
+      collect(part, asked, &sums);
+      continue;
+    }
+    const int side = pieces.larger(part);
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      Part& next = stack[parts++];
+      next = part;
+      ++next.level[side];
+      next.x[side] = uint8_t(2 * part.x[side] + (quarter & 1));
+      next.y[side] = uint8_t(2 * part.y[side] + (quarter >> 1));
+    }
+  }
+  if (sums.all_shut()) {
+    ++counters->blocked;
+    return 0;
+  }
+  if (sums.all_open()) return kAllVisible_uq16;
+  return sums.fraction_uq16();
+}
+
+}  // namespace urad

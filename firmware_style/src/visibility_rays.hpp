@@ -1,0 +1,100 @@
+// visibility_rays.hpp -- blockers worth asking, and sums of what rays bring, for fixed and adaptive
+// numbers of rays.
+#pragma once
+#include "urad/log2.hpp"
+#include "urad/ratio.hpp"
+#include "urad/visibility.hpp"
+#include "visibility_sample.hpp"
+
+namespace urad {
+
+/// Blockers that may stand between two patches: the first few by number, any others from `rest` on.
+class Candidates {
+ public:
+  Candidates(const urad_scene& scene, const Patch& i, const Patch& j, bool reject,
+             urad_counters* counters) noexcept;
+
+  bool empty() const noexcept { return count_ == 0 && !any_; }
+
+  /// The blocker that stopped a ray is asked first about the next.
+  bool stop(const urad_point& a, const urad_point& b, urad_counters* counters) noexcept;
+
+ private:
+  struct Listed {
+    uint16_t blocker;
+    int8_t side_i, side_j;  // of its plane that the whole patch lies on; 0: both
+  };
+  /// Whether the patches lie on both sides of the blocker's plane; fills in the sides.
+  bool astride(const urad_blocker& blocker, Listed* entry) const noexcept;
+  /// Leaves out those beside the common box, and those whose plane the patches do not lie astride.
+  void list() noexcept;
+
+  static constexpr int kListed = 24;
+  const urad_scene& scene_;
+  const Patch &i_, &j_;
+  uint16_t rest_;
+  bool any_;  // rays are made whatever the bounds say
+  int count_ = 0;
+  Listed listed_[kListed];
+};
+
+/// Sums of weights of any size: 64 bits over the exponent of the greatest so far.
+class Sums {
+ public:
+  void add(const Scaled& weight, bool open, bool near) noexcept {
+    if (weight.mantissa == 0) return;
+    if (open_count_ + shut_count_ == 0) exponent_ = weight.exponent;
+    if (weight.exponent > exponent_) {
+      const int up = weight.exponent - exponent_ < 63 ? weight.exponent - exponent_ : 63;
+      open_ >>= up, shut_ >>= up, near_ >>= up;
+      exponent_ = weight.exponent;
+    }
+    const int down = exponent_ - weight.exponent;
+    const uint32_t share = down < 32 ? weight.mantissa >> down : 0;
+    (open ? open_ : shut_) += share;
+    ++(open ? open_count_ : shut_count_);
+    if (near) near_ += share;
+  }
+
+  /// What open or shut rays brought together.
+  Scaled total(bool open) const noexcept {
+    const Scaled sum = scaled(open ? open_ : shut_);
+    return {sum.mantissa, sum.exponent + exponent_};
+  }
+
+  bool all_open() const noexcept { return shut_count_ == 0; }
+  bool all_shut() const noexcept { return open_count_ == 0; }
+
+  /// Puts a value known otherwise, log2 in Q7.24, in the place of the near weights.
+  void replace_near(int32_t log2_near_q24) noexcept {
+    const uint64_t near =
+        log2_near_q24 == kNoHit ? 0 : uint64_t{exp2_uq(log2_near_q24, -exponent_ - 12)} << 12;
+    all_ = open_ + shut_ - near_ + near;
+  }
+
+  /// The lesser of open and shut over all weights.
+  uint32_t fraction_uq16() const noexcept {
+    const uint64_t lesser = open_ < shut_ ? open_ : shut_, all = all_ ? all_ : open_ + shut_;
+    const int64_t part_uq24 = all ? ratio_q(int64_t(lesser), int64_t(all), 24) : 0;
+    const uint32_t part_uq16 =
+        part_uq24 < 1 << 24 ? uint32_t(round_shift(part_uq24, 8)) : kAllVisible_uq16;
+    const uint32_t f_uq16 = open_ < shut_ ? part_uq16 : kAllVisible_uq16 - part_uq16;
+    return f_uq16 < 1 ? 1 : f_uq16 >= kAllVisible_uq16 ? kAllVisible_uq16 - 1 : f_uq16;
+  }
+
+ private:
+  uint64_t open_ = 0, shut_ = 0, near_ = 0, all_ = 0;
+  int exponent_ = 0;
+  uint32_t open_count_ = 0, shut_count_ = 0;
+};
+
+/// cos cos / r^2 times 2^60: (n_i . r)(-n_j . r) / r^4. Nothing when one end looks away.
+Scaled weight_of(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept;
+
+/// Where patches may touch: rho above this. Weights of points there are as great as they like.
+inline constexpr uint32_t kTouching_uq16 = 4096;
+
+/// log2 of tr M_i + tr M_j.
+int32_t log2_spread_sum_q24(const Patch& i, const Patch& j) noexcept;
+
+}  // namespace urad
