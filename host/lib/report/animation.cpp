@@ -12,7 +12,7 @@ constexpr double kConverged = 1e-4;
 class Recorder {
  public:
   Recorder(const Scene& scene, const EngineRows& rows, const AnimationOptions& options)
-      : light(scene, rows, false), options_(options), view_(scene, options.picture), scene_(scene) {
+      : light(scene, rows, true), options_(options), view_(scene, options.picture), scene_(scene) {
     animation.table = csv_line({"frame", "change", "shots", "error"});
   }
 
