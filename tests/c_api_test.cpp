@@ -232,7 +232,7 @@ TEST_CASE(
   REQUIRE(urad_net_check(&net) == URAD_OK);
   uint32_t f[2] = {7, 7};
   urad_counters counters{};
-  uint64_t memory[8];
+  uint64_t memory[16];
   urad_source source;
   CHECK(urad_form_factor(&squares.scene, 0, 1, URAD_KERNEL_MOMENT, &net, 0, f, &counters) ==
         URAD_BAD_NET);

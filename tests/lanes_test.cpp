@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hwy/highway.h>
 
+#include <cstring>
 #include <filesystem>
 #include <random>
 
@@ -59,7 +60,7 @@ std::vector<std::uint32_t> engine_rows(const urad::PairSource& pairs, urad_count
 
 void same_as_engine(const host::Scene& scene, const urad_net* net, urad::Kernel kernel) {
   const host::FixedScene fixed(scene);
-  const urad::PairSource pairs{&fixed.pod(), net, kernel, 0, 0, nullptr};
+  const urad::PairSource pairs{&fixed.pod(), net, kernel, 16, 0, nullptr};
   REQUIRE(host::has_lanes(pairs));
   urad_counters expected_counters{};
   const std::vector<std::uint32_t> expected = engine_rows(pairs, &expected_counters);
@@ -68,11 +69,7 @@ void same_as_engine(const host::Scene& scene, const urad_net* net, urad::Kernel 
     urad_counters counters{};
     host::lane_rows(pairs, 2, f, &counters);
     CHECK(f == expected);
-    CHECK(counters.evaluated == expected_counters.evaluated);
-    CHECK(counters.skipped_same == expected_counters.skipped_same);
-    CHECK(counters.skipped_facing == expected_counters.skipped_facing);
-    CHECK(counters.far_pairs == expected_counters.far_pairs);
-    CHECK(counters.near_pairs == expected_counters.near_pairs);
+    CHECK(std::memcmp(&counters, &expected_counters, sizeof counters) == 0);
   });
 }
 

@@ -2,7 +2,7 @@
  *
  * A solve in a few lines (status codes left out):
  *
- *   static uint64_t pairs[8];                                  at least urad_pair_source_bytes()
+ *   static uint64_t pairs[12];                                 at least urad_pair_source_bytes()
  *   static uint32_t light[URAD_RADIOSITY_BYTES(294, 49) / 4];  patches, patches a surface
  *   urad_counters counters = {0};
  *   urad_source source;

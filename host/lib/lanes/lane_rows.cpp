@@ -26,8 +26,9 @@ struct Worker {
     return f_uq32[std::size_t{i} * scene().patch_count + j];
   }
 
-  void store(std::uint16_t i, std::uint16_t j, std::int32_t log2_g_q24) const {
+  void store(std::uint16_t i, std::uint16_t j, std::int32_t log2_g_q24) {
     if (log2_g_q24 == urad::kNoExchange) return;
+    counters.skipped_convex += pairs.rays > 0;
     const auto of = [&](PatchLanes::Row row, std::uint16_t patch) {
       return patches.row(row)[patch];
     };
@@ -62,6 +63,8 @@ struct Worker {
       } else {
         ++counters.evaluated;
         counters.far_pairs += rho < far;
+        counters.networks += pairs.net && rho >= far;
+        counters.skipped_convex += pairs.rays > 0;
         factor(i.index, j) = lanes.from_uq32[k];
         factor(j, i.index) = lanes.to_uq32[k];
       }
@@ -90,6 +93,19 @@ struct Worker {
       }
     }
   }
+
+  /// Patches that patch i finds behind with one look at their surface.
+  std::uint32_t behind(std::uint16_t index) const {
+    const urad::Patch i = urad::patch_at(scene(), index);
+    std::uint32_t count = 0;
+    for (const urad_surface* to = scene().surface; to != scene().surface + scene().surface_count;
+         ++to) {
+      const bool same = to == i.surface && (to->flags & URAD_SURFACE_PLANAR);
+      if (!same && urad::side_of_run(scene(), i, *to) == urad::Side::behind)
+        count += to->patch_count;
+    }
+    return count;
+  }
 };
 
 /// Both directions of every pair.
@@ -100,13 +116,15 @@ void add_twice(const urad_counters& part, urad_counters* sum) {
   sum->clipped += 2 * part.clipped;
   sum->far_pairs += 2 * part.far_pairs;
   sum->near_pairs += 2 * part.near_pairs;
+  sum->networks += 2 * part.networks;
+  sum->skipped_convex += 2 * part.skipped_convex;
 }
 
 }  // namespace
 
 bool has_lanes(const urad::PairSource& pairs) {
   return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.points == 0 && !pairs.exchange &&
-         pairs.skips_off == 0;
+         pairs.bound_uq32 == 0 && pairs.skips_off == 0;
 }
 
 void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32_t> f_uq32,
@@ -118,9 +136,14 @@ void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32
   const std::size_t workers = std::min(thread_count(threads), n);
   parallel_for(workers, threads, [&](std::size_t worker) {
     Worker work{pairs, patches, f_uq32};
-    for (std::size_t i = worker; i < n; i += workers) work.row(std::uint16_t(i));
+    std::uint32_t behind = 0;
+    for (std::size_t i = worker; i < n; i += workers) {
+      work.row(std::uint16_t(i));
+      behind += work.behind(std::uint16_t(i));
+    }
     const std::lock_guard<std::mutex> guard(sum);
     add_twice(work.counters, counters);
+    counters->skipped_behind += behind;
   });
 }
 

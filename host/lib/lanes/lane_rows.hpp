@@ -8,7 +8,7 @@
 namespace host {
 
 /// True where lane_rows() gives what urad::pair_fill() gives: the scene is convex, every pair goes
-/// by kernel or network, no skip is switched off.
+/// by kernel or network, no skip is switched off and none bounded.
 bool has_lanes(const urad::PairSource& pairs);
 
 /// Factors [N][N] UQ0.32, the same bits as urad::pair_fill() row by row, and adds to *counters what

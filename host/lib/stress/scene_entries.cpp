@@ -224,7 +224,7 @@ void attack_arguments(Choices choices, const urad_net& net, Findings* findings) 
                             static_cast<char*>(at) + 1 + choices.below(3), 4096),
       urad_hemicube_source_init(&source, &scene, &table, std::uint16_t(17 + choices.byte()), 0,
                                 &counters, at, 1 << 16),
-      urad_hemicube_source_init(&source, &scene, &table, 16, 4 + choices.byte(), &counters, at,
+      urad_hemicube_source_init(&source, &scene, &table, 16, 16 + choices.byte(), &counters, at,
                                 1 << 16),
       urad_hemicube_source_init(&source, &scene, &table, 16, 0, &counters, at, too_few),
       urad_hemicube_source_init(&source, &scene, nullptr, 16, 0, &counters, at, 1 << 16),
