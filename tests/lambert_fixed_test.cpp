@@ -302,3 +302,15 @@ TEST_CASE(
     CHECK(error.rows->worst <= 0.006);
   }
 }
+
+TEST_CASE("a patch so small that its vertices are one point exchanges nothing by the exact sum") {
+  const Polygon floor = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  for (const double size : {1e-10, 1e-12}) {
+    const Polygon speck = parallelogram({0.3, 0.4, 0.5}, {0, size, 0}, {size, 0, 0});
+    const host::FixedScene scene = host::FixedScene::of_polygons({floor, speck}, {});
+    for (const int points : {1, 2, 3, 4}) {
+      CHECK(exchange(scene, 0, 1, points) == urad::kNoExchange);
+      CHECK(exchange(scene, 1, 0, points) == urad::kNoExchange);
+    }
+  }
+}

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/ratio.hpp"
@@ -297,3 +298,29 @@ TEST_CASE("inverse_uq62 and ratio_q hold their errors") {
 }
 
 }  // namespace
+
+TEST_CASE("between near patches: what grows lets less through, as sampling says") {
+  // Plates closer than half their size: nearly all of their exchange is near, and its rays met no
+  // blocker.
+  const Polygon floor = polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  const Polygon ceiling = polygon({{0, 0, 0.3}, {0, 1, 0.3}, {1, 1, 0.3}, {1, 0, 0.3}});
+  const double open = host::monte_carlo(floor, ceiling, 1 << 16).f;
+  double before = 1;
+  for (const double size : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    CAPTURE(size);
+    const double low = 0.5 - size / 2, high = 0.5 + size / 2;
+    const Polygon blocker =
+        polygon({{low, low, 0.15}, {high, low, 0.15}, {high, high, 0.15}, {low, high, 0.15}});
+    const host::FixedScene scene = host::FixedScene::of_polygons({floor, ceiling}, {blocker});
+    urad_counters counters{};
+    const double seen =
+        urad::visible_fraction_uq16(scene.pod(), urad::patch_at(scene.pod(), 0),
+                                    urad::patch_at(scene.pod(), 1), 256, true, &counters) /
+        65536.0;
+    const double exact = host::monte_carlo(floor, ceiling, 1 << 16, {blocker}).f / open;
+    INFO(seen, " for ", exact);
+    CHECK(std::abs(seen - exact) < 0.03);
+    CHECK(seen < before);
+    before = seen;
+  }
+}

@@ -20,9 +20,11 @@ inline Span span_of(const urad_point& a, const urad_point& b,
   return {round_shift(dot(normal_q30, c.direction), 30), c.exponent};
 }
 
+/// exponent: of the largest span; that of a span of 0 may be anything.
 inline int64_t brought_to(const Span& span, int exponent) noexcept {
   const int down = exponent - span.exponent;
-  return down == 0 ? span.value : down > 32 ? 0 : round_shift(span.value, down);
+  if (span.value == 0 || down > 32) return 0;
+  return down == 0 ? span.value : round_shift(span.value, down);
 }
 
 /// The mean of the vertices: a convex combination, so it stays where the cut left them.

@@ -53,8 +53,18 @@ bool loop_in_table(const urad_scene& scene, uint32_t first, uint16_t count) noex
          first < scene.vertex_count && count <= scene.vertex_count - first;
 }
 
-bool good(const urad_scene& scene, const urad_surface& surface, uint32_t expected_first) noexcept {
-  if (surface.first_patch != expected_first || surface.patch_count == 0) return false;
+/// Looked at before any patch: lists are only read when their lengths add up.
+bool counts_add_up(const urad_scene& scene) noexcept {
+  uint32_t patches = 0;
+  for (uint16_t s = 0; s < scene.surface_count; ++s) {
+    const urad_surface& surface = scene.surface[s];
+    if (surface.first_patch != patches || surface.patch_count == 0) return false;
+    patches += surface.patch_count;
+  }
+  return patches == scene.patch_count;
+}
+
+bool good(const urad_scene& scene, const urad_surface& surface) noexcept {
   if (surface.material >= scene.material_count) return false;
   if ((surface.grid != nullptr) == (surface.polygon != nullptr)) return false;
   if (surface.grid) return good(*surface.grid, surface.patch_count);
@@ -91,12 +101,10 @@ Status scene_check(const urad_scene* scene) noexcept {
   if ((scene->blocker_count && !scene->blocker) || (scene->vertex_count && !scene->vertex))
     return Status::bad_scene;
   if (magnitude(scene->log2_power_q24) > uint32_t(kLog2Max)) return Status::bad_scene;
-  uint32_t patches = 0;
+  if (!counts_add_up(*scene)) return Status::bad_scene;
   for (uint16_t s = 0; s < scene->surface_count; ++s) {
-    if (!good(*scene, scene->surface[s], patches)) return Status::bad_scene;
-    patches += scene->surface[s].patch_count;
+    if (!good(*scene, scene->surface[s])) return Status::bad_scene;
   }
-  if (patches != scene->patch_count) return Status::bad_scene;
   for (uint16_t m = 0; m < scene->material_count; ++m) {
     if (!good(scene->material[m])) return Status::bad_scene;
   }

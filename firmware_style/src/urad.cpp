@@ -56,6 +56,18 @@ extern "C" {
 
 urad_status urad_scene_check(const urad_scene* scene) { return c_status(urad::scene_check(scene)); }
 
+urad_status urad_scene_crc32(const urad_scene* scene, uint32_t crc32[2]) {
+  if (!scene || !crc32) return URAD_BAD_ARGUMENT;
+  const urad::SceneCrc crc = urad::scene_crc32(*scene);
+  crc32[0] = crc.fields, crc32[1] = crc.tables;
+  return URAD_OK;
+}
+
+urad_status urad_scene_verify(const urad_scene* scene, const uint32_t crc32[2]) {
+  if (!crc32) return URAD_BAD_ARGUMENT;
+  return c_status(urad::scene_verify(scene, {crc32[0], crc32[1]}));
+}
+
 urad_status urad_net_check(const urad_net* net) { return c_status(urad::network_check(net)); }
 
 urad_status urad_grid_make(urad_point origin, urad_point step_u, urad_point step_v,

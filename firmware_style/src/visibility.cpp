@@ -22,18 +22,24 @@ uint64_t half_spread_sum(const Patch& i, const Patch& j) noexcept {
   return uint64_t{exp2_uq(log2_half_q24 - up * (1 << 24), 0)} << up;
 }
 
-/// log2 of the mean of the weights of pairs of points closer than the square root of `distance2`:
-/// pi F / A 2^60, by rays from the smaller patch to the other. The mean itself has no bounded
-/// variance where patches touch; this has.
-int32_t log2_near_mean_q24(const Patch& i, const PatchSampler& on_i, const Patch& j,
-                           const PatchSampler& on_j, uint64_t distance2, int tries) noexcept {
+/// log2 of the mean of the weights of pairs of points closer than the square root of `distance2`, open
+/// and shut: pi F / A 2^60 2^-kNearBits, by rays from the smaller patch to the other. The mean itself
+/// has no bounded variance where patches touch; this has.
+struct NearMean {
+  int32_t log2_open_q24, log2_shut_q24;
+};
+NearMean near_mean(const Patch& i, const PatchSampler& on_i, const Patch& j,
+                   const PatchSampler& on_j, uint64_t distance2, int tries, Stop stop,
+                   void* context) noexcept {
   const bool from_i = i.shape->log2_area_q24 <= j.shape->log2_area_q24;
   Sequence sequence(j.index, i.index);
-  const int32_t log2_f_q24 =
-      from_i ? log2_factor_by_rays_q24(i, on_i, j, on_j, distance2, tries, &sequence)
-             : log2_factor_by_rays_q24(j, on_j, i, on_i, distance2, tries, &sequence);
-  if (log2_f_q24 == kNoHit) return kNoHit;
-  return kLog2Pi_q24 + (60 << 24) + log2_f_q24 - (from_i ? j : i).shape->log2_area_q24;
+  const NearRays rays =
+      from_i ? near_rays(i, on_i, j, on_j, distance2, tries, &sequence, stop, context)
+             : near_rays(j, on_j, i, on_i, distance2, tries, &sequence, stop, context);
+  const int32_t log2_unit_q24 = kLog2Pi_q24 + ((60 - kNearBits) << 24) - log2_q24(rays.sent) -
+                                (from_i ? j : i).shape->log2_area_q24;
+  const auto mean = [=](uint32_t hits) { return hits ? log2_unit_q24 + log2_q24(hits) : kNoHit; };
+  return {mean(rays.open), mean(rays.shut)};
 }
 
 }  // namespace
@@ -98,9 +104,18 @@ uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const 
   }
   if (sums.all_open()) return kAllVisible_uq16;
   if (touching) {
-    const int32_t log2_mean_q24 =
-        log2_near_mean_q24(i, on_i, j, on_j, near2, kFactorTries * wanted);
-    sums.replace_near(log2_mean_q24 == kNoHit ? kNoHit : log2_mean_q24 + log2_q24(uint32_t(made)));
+    struct Asked {
+      Candidates* candidates;
+      urad_counters* counters;
+    } asked{&candidates, counters};
+    const Stop stop = [](void* context, const urad_point& a, const urad_point& b) {
+      const Asked& to = *static_cast<Asked*>(context);
+      return to.candidates->stop(a, b, to.counters);
+    };
+    const NearMean mean = near_mean(i, on_i, j, on_j, near2, kFactorTries * wanted, stop, &asked);
+    const int32_t log2_made_q24 = log2_q24(uint32_t(made));
+    const auto all = [=](int32_t x) { return x == kNoHit ? kNoHit : x + log2_made_q24; };
+    sums.add_near(all(mean.log2_open_q24), all(mean.log2_shut_q24));
   }
   return sums.fraction_uq16();
 }

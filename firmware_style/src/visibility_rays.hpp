@@ -38,22 +38,20 @@ class Candidates {
   Listed listed_[kListed];
 };
 
+inline constexpr int32_t kNoHit = INT32_MIN;
+// Logs of near weights are this much less, which keeps them in 32 bits.
+inline constexpr int kNearBits = 20;
+
 /// Sums of weights of any size: 64 bits over the exponent of the greatest so far.
 class Sums {
  public:
   void add(const Scaled& weight, bool open, bool near) noexcept {
     if (weight.mantissa == 0) return;
-    if (open_count_ + shut_count_ == 0) exponent_ = weight.exponent;
-    if (weight.exponent > exponent_) {
-      const int up = weight.exponent - exponent_ < 63 ? weight.exponent - exponent_ : 63;
-      open_ >>= up, shut_ >>= up, near_ >>= up;
-      exponent_ = weight.exponent;
-    }
-    const int down = exponent_ - weight.exponent;
-    const uint32_t share = down < 32 ? weight.mantissa >> down : 0;
-    (open ? open_ : shut_) += share;
     ++(open ? open_count_ : shut_count_);
-    if (near) near_ += share;
+    if (near) return;
+    raise(weight.exponent);
+    const int down = exponent_ - weight.exponent;
+    (open ? open_ : shut_) += down < 32 ? weight.mantissa >> down : 0;
   }
 
   /// What open or shut rays brought together.
@@ -65,16 +63,21 @@ class Sums {
   bool all_open() const noexcept { return shut_count_ == 0; }
   bool all_shut() const noexcept { return open_count_ == 0; }
 
-  /// Puts a value known otherwise, log2 in Q7.24, in the place of the near weights.
-  void replace_near(int32_t log2_near_q24) noexcept {
-    const uint64_t near =
-        log2_near_q24 == kNoHit ? 0 : uint64_t{exp2_uq(log2_near_q24, -exponent_ - 12)} << 12;
-    all_ = open_ + shut_ - near_ + near;
+  /// Adds what near weights come to by other means, log2 in Q7.24 less kNearBits, or kNoHit.
+  void add_near(int32_t log2_open_q24, int32_t log2_shut_q24) noexcept {
+    const auto weight = [this](int32_t log2_q24) {
+      return log2_q24 == kNoHit ? 0 : uint64_t{exp2_uq(log2_q24, kNearBits - exponent_ - 12)} << 12;
+    };
+    const int32_t most_q24 = log2_open_q24 < log2_shut_q24 ? log2_shut_q24 : log2_open_q24;
+    if (most_q24 == kNoHit) return;
+    raise(int(shift_down(most_q24, 24)) + kNearBits - 43);
+    open_ += weight(log2_open_q24);
+    shut_ += weight(log2_shut_q24);
   }
 
   /// The lesser of open and shut over all weights.
   uint32_t fraction_uq16() const noexcept {
-    const uint64_t lesser = open_ < shut_ ? open_ : shut_, all = all_ ? all_ : open_ + shut_;
+    const uint64_t lesser = open_ < shut_ ? open_ : shut_, all = open_ + shut_;
     const int64_t part_uq24 = all ? ratio_q(int64_t(lesser), int64_t(all), 24) : 0;
     const uint32_t part_uq16 =
         part_uq24 < 1 << 24 ? uint32_t(round_shift(part_uq24, 8)) : kAllVisible_uq16;
@@ -83,7 +86,16 @@ class Sums {
   }
 
  private:
-  uint64_t open_ = 0, shut_ = 0, near_ = 0, all_ = 0;
+  /// Sums in units of 2^exponent at least.
+  void raise(int exponent) noexcept {
+    if (open_ + shut_ == 0) exponent_ = exponent;
+    if (exponent <= exponent_) return;
+    const int up = exponent - exponent_ < 63 ? exponent - exponent_ : 63;
+    open_ >>= up, shut_ >>= up;
+    exponent_ = exponent;
+  }
+
+  uint64_t open_ = 0, shut_ = 0;  // but for near weights
   int exponent_ = 0;
   uint32_t open_count_ = 0, shut_count_ = 0;
 };

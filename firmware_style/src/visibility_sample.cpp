@@ -174,22 +174,23 @@ bool meet(const Patch& to, const urad_point& x, const urad_point& d_q30, urad_po
 
 }  // namespace
 
-int32_t log2_factor_by_rays_q24(const Patch& from, const PatchSampler& on_from, const Patch& to,
-                                const PatchSampler& on_to, uint64_t distance2, int tries,
-                                Sequence* sequence) noexcept {
+NearRays near_rays(const Patch& from, const PatchSampler& on_from, const Patch& to,
+                   const PatchSampler& on_to, uint64_t distance2, int tries, Sequence* sequence,
+                   Stop stop, void* context) noexcept {
   const HemicubeFrame frame = hemicube_frame(from.shape->normal_q30, 0, false);
-  uint32_t sent = 0, hits = 0;
+  NearRays rays;
   for (int n = 0; n < tries; ++n) {
     urad_point x, d_q30, hit;
     sequence->advance();
     if (!on_from.point(sequence->uq31(0), sequence->uq31(1), &x)) continue;
     if (!cosine_direction(frame, sequence->uq31(2), sequence->uq31(3), &d_q30)) continue;
-    ++sent;
+    ++rays.sent;
     if (!meet(to, x, d_q30, &hit)) continue;
     const urad_point r = hit - x;
-    if (uint64_t(dot(r, r)) < distance2 && on_to.holds(hit)) ++hits;
+    if (uint64_t(dot(r, r)) < distance2 && on_to.holds(hit))
+      ++(stop(context, x, hit) ? rays.shut : rays.open);
   }
-  return hits ? log2_q24(hits) - log2_q24(sent) : kNoHit;
+  return rays;
 }
 
 }  // namespace urad

@@ -56,12 +56,18 @@ class Sequence {
   uint32_t count_ = 0;
 };
 
-/// The part of a form factor that goes less than the square root of `distance2` far, by `tries`
-/// rays that leave `from` by the cosine law (Malley) and are looked for on `to`; blockers are
-/// ignored. log2 F in Q7.24, or kNoHit.
-inline constexpr int32_t kNoHit = INT32_MIN;
-int32_t log2_factor_by_rays_q24(const Patch& from, const PatchSampler& on_from, const Patch& to,
-                                const PatchSampler& on_to, uint64_t distance2, int tries,
-                                Sequence* sequence) noexcept;
+/// Rays that leave a patch by the cosine law (Malley): of `sent`, these meet the other patch near by.
+struct NearRays {
+  uint32_t sent = 0, open = 0, shut = 0;
+};
+
+/// Whether something stands between a and b; context is the caller's.
+using Stop = bool (*)(void* context, const urad_point& a, const urad_point& b);
+
+/// The part of a form factor that goes less than the square root of `distance2` far, by `tries` rays
+/// from `from` that are looked for on `to`.
+NearRays near_rays(const Patch& from, const PatchSampler& on_from, const Patch& to,
+                   const PatchSampler& on_to, uint64_t distance2, int tries, Sequence* sequence,
+                   Stop stop, void* context) noexcept;
 
 }  // namespace urad

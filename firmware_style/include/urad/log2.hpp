@@ -91,6 +91,7 @@ constexpr int32_t log2_q24(uint64_t x) noexcept {
 ///   measured: tests/log2_test.cpp
 /// Exact at whole x. Width: difference < 2^16 after the shift, fraction 2^16.
 constexpr uint32_t exp2_uq(int32_t x_q24, int fraction_bits) noexcept {
+  expect(fraction_bits >= -64 && fraction_bits <= 64);
   const int e = int(shift_down(x_q24, 24)) + fraction_bits;
   if (e >= 32) return 0xFFFFFFFFu;
   if (e < -1) return 0;
@@ -110,6 +111,7 @@ constexpr uint32_t rsqrt_uq(uint64_t x, int fraction_bits) noexcept {
 
 /// log2(1 + x) in Q7.24 for x in UQ with `fraction_bits` <= 24; x < 2^32 - 2^fraction_bits.
 constexpr int32_t log2_1p_q24(uint32_t x, int fraction_bits) noexcept {
+  expect(fraction_bits <= 24 && x < 0u - (uint32_t{1} << fraction_bits));
   return log2_q24(x + (uint32_t{1} << fraction_bits)) - int32_t(uint32_t(fraction_bits) << 24);
 }
 

@@ -34,4 +34,14 @@ urad_point patch_vertex(const urad_scene& scene, const Patch& patch, uint16_t k)
 /// the rest of the engine does not check.
 Status scene_check(const urad_scene* scene) noexcept;
 
+/// CRC-32 of the fields of a scene, and of the tables they count; pointers are left out.
+struct SceneCrc {
+  uint32_t fields, tables;
+};
+SceneCrc scene_crc32(const urad_scene& scene) noexcept;
+
+/// Against what the exporter wrote: the fields, then scene_check(), then the tables, so that no
+/// faulty count is followed. Finds every single-bit fault.
+Status scene_verify(const urad_scene* scene, const SceneCrc& crc) noexcept;
+
 }  // namespace urad

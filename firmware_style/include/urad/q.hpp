@@ -7,7 +7,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifndef URAD_CHECKED
+#define URAD_CHECKED 0
+#endif
+
 namespace urad {
+
+/// What a caller has to see to: ranges that a comment promises. Builds with URAD_CHECKED=1 trap where
+/// one does not hold; all others know nothing of it.
+constexpr void expect(bool holds) noexcept {
+  if (URAD_CHECKED && !holds) __builtin_trap();
+}
 
 /// The only right shift of negative numbers in the engine: towards minus infinity (C++20 defines
 /// it; all our C++17 compilers do it).
@@ -26,10 +36,12 @@ constexpr uint64_t magnitude(int64_t x) noexcept { return x < 0 ? 0u - uint64_t(
 
 /// x / 2^n to nearest. 1 <= n <= 31 (63 for 64 bits), any x.
 constexpr int32_t round_shift(int32_t x, int n) noexcept {
+  expect(n >= 1 && n <= 31);
   const uint32_t y = (magnitude(x) + (uint32_t{1} << (n - 1))) >> n;
   return x < 0 ? -int32_t(y) : int32_t(y);
 }
 constexpr int64_t round_shift(int64_t x, int n) noexcept {
+  expect(n >= 1 && n <= 63);
   const uint64_t y = (magnitude(x) + (uint64_t{1} << (n - 1))) >> n;
   return x < 0 ? -int64_t(y) : int64_t(y);
 }
@@ -38,6 +50,7 @@ constexpr int64_t round_shift(int64_t x, int n) noexcept {
 /// products, where 64 bits would call a helper on small chips.
 constexpr int32_t mul_round(int32_t x, int32_t y, int n) noexcept {
   const uint32_t a = magnitude(x), b = magnitude(y), low = (uint32_t{1} << n) - 1;
+  expect(n >= 1 && n <= 16 && b >> (32 - n) == 0 && (uint64_t{a} * b) >> n <= 0x7FFFFFFFu);
   const uint32_t product = (a >> n) * b + (((a & low) * b + (uint32_t{1} << (n - 1))) >> n);
   return (x < 0) != (y < 0) ? -int32_t(product) : int32_t(product);
 }
@@ -45,6 +58,7 @@ constexpr int32_t mul_round(int32_t x, int32_t y, int n) noexcept {
 /// The same for 17 <= n <= 47 and 0 <= y <= 2^16.
 constexpr int32_t mul_shift(int32_t x, uint32_t y, int n) noexcept {
   const uint32_t a = magnitude(x);
+  expect(n >= 17 && n <= 47 && y <= 65536u);
   const uint32_t high = (a >> 16) * y + (((a & 0xFFFFu) * y) >> 16);  // x y / 2^16, at most 2^31
   const uint32_t product = (high + (uint32_t{1} << (n - 17))) >> (n - 16);
   return x < 0 ? -int32_t(product) : int32_t(product);

@@ -10,6 +10,7 @@ namespace urad {
 ///   measured over a dense sweep: tests/visibility_test.cpp                     relative <= 1.0e-9
 /// Width: y in UQ2.30 is below 2^31, every product of 32 bits by 32 bits.
 constexpr uint32_t inverse_uq62(uint32_t m) noexcept {
+  expect(m >> 31);
   const auto high = [](uint32_t a, uint32_t b) { return uint32_t((uint64_t{a} * b) >> 32); };
   uint32_t y_uq30 = 3031741621u - high(m, 2021161081u);  // 1/d, UQ2.30
   for (int n = 0; n < 3; ++n) {
@@ -51,6 +52,7 @@ constexpr int64_t to_q(const Scaled& a, int fraction_bits) noexcept {
 /// num / den with `fraction_bits`, the sign of num, |result| <= 2^62. den > 0. Relative error below
 /// 2^-29.
 constexpr int64_t ratio_q(int64_t num, int64_t den, int fraction_bits) noexcept {
+  expect(den > 0);
   const int64_t q = to_q(scaled(magnitude(num)) / scaled(magnitude(den)), fraction_bits);
   return num < 0 ? -q : q;
 }

@@ -46,6 +46,14 @@ extern "C" {
  * URAD_BAD_SCENE; a null scene is URAD_BAD_SCENE too. Tables must be as long as the counts say. */
 urad_status urad_scene_check(const urad_scene* scene);
 
+/* CRC-32 of a scene that has passed its check: of its fields to crc32[0], of its tables to crc32[1].
+ * Exporters write both as urad_NAME_crc32. Null: URAD_BAD_ARGUMENT. */
+urad_status urad_scene_crc32(const urad_scene* scene, uint32_t crc32[2]);
+
+/* urad_scene_check() and both CRCs, the fields first, so that no faulty count is followed: finds
+ * every single-bit fault. URAD_OK or URAD_BAD_SCENE; null crc32: URAD_BAD_ARGUMENT. */
+urad_status urad_scene_verify(const urad_scene* scene, const uint32_t crc32[2]);
+
 /* Checks a net: ABI, sizes, shifts, accumulators that cannot overflow, CRC-32. URAD_OK, or
  * URAD_BAD_NET; a null net is URAD_BAD_NET too. */
 urad_status urad_net_check(const urad_net* net);

@@ -26,7 +26,7 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept;
 /// on the pair; the same for (i, j) and (j, i). `weighted` weighs a ray by cos cos / r^2: the
 /// fraction of the form factor, not of the rays. Where patches may touch (rho > 1/16) the sum of
 /// all weights has no bounded variance: its part below the distance sqrt(S/2), S the sum of the two
-/// tr M, then comes from 8 more rays each that leave by the cosine law and meet no blocker.
+/// tr M, then comes from 8 more rays each that leave by the cosine law.
 /// Segments that leave or meet a patch from behind count for nothing, and others are made in their
 /// place, 16 tries a ray at most; 0 when none is found.
 /// Blockers that cannot reach between the patches are left out beforehand, and when none remains no

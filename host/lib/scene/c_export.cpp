@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
+#include "urad/patch.hpp"
 
 namespace host {
 namespace {
@@ -173,11 +174,16 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
   text += fmt::format(
       "static const urad_scene {}scene = {{\n"
       "    URAD_SCENE_ABI, {}, {}, {}, {}, {}, {}u,\n"
-      "    {}surface, {}material, {}, {}, {}, {}}};\n\n#endif\n",
+      "    {}surface, {}material, {}, {}, {}, {}}};\n",
       prefix, s.flags, s.patch_count, s.surface_count, s.material_count, s.blocker_count,
       s.vertex_count, prefix, prefix, reference(s.blocker_count > 0, "blocker"),
       reference(s.vertex_count > 0, "vertex"), reference(scaled, "log2_scale_q24"),
       s.log2_power_q24);
+  const urad::SceneCrc crc = urad::scene_crc32(s);
+  text += fmt::format(
+      "/* for urad_scene_verify(): of the fields, of the tables */\n"
+      "static const uint32_t {}crc32[2] = {{0x{:08X}u, 0x{:08X}u}};\n\n#endif\n",
+      prefix, crc.fields, crc.tables);
   return text;
 }
 

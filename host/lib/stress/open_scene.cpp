@@ -103,6 +103,22 @@ std::vector<OpenScene::Bytes> OpenScene::tables() {
   return result;
 }
 
+std::size_t OpenScene::bits() {
+  std::size_t sum = 0;
+  for (const Bytes& table : tables()) sum += 8 * table.size;
+  return sum;
+}
+
+void OpenScene::flip(std::size_t bit) {
+  for (const Bytes& table : tables()) {
+    if (bit < 8 * table.size) {
+      static_cast<std::uint8_t*>(table.data)[bit / 8] ^= std::uint8_t(1u << bit % 8);
+      return;
+    }
+    bit -= 8 * table.size;
+  }
+}
+
 void OpenScene::mutate(Choices* choices) {
   for (std::uint32_t k = 1 + choices->below(6); k > 0; --k) {
     const std::vector<Bytes> all = tables();

@@ -23,6 +23,10 @@ class OpenScene {
   /// without any relation to each other.
   void randomise(Choices* choices);
 
+  /// Every bit of every table and field but pointers, in a fixed order.
+  std::size_t bits();
+  void flip(std::size_t bit);
+
   const urad_scene& pod() const { return scene_; }
   /// Changes when any byte of any table does.
   std::uint64_t digest() const;

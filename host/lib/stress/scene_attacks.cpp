@@ -20,6 +20,9 @@ std::vector<Attack> scene_attacks(const NetChoice& nets) {
           {"scenes", "wrong arguments", random_bytes,
            [nets](const std::string& input, Findings* findings) {
              attack_arguments(Choices(input), nets.find("general"), findings);
+           }},
+          {"scenes", "bit faults", random_bytes, [](const std::string& input, Findings* findings) {
+             attack_bits(Choices(input), findings);
            }}};
 }
 

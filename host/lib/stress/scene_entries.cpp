@@ -246,4 +246,21 @@ void attack_arguments(Choices choices, const urad_net& net, Findings* findings) 
                        urad_hemicube_source_bytes(nullptr, 16, 16, 0) == 0);
 }
 
+void attack_bits(Choices choices, Findings* findings) {
+  const std::vector<FixedScene>& good = good_scenes();
+  OpenScene scene(good[choices.below(std::uint32_t(good.size()))].pod());
+  std::uint32_t crc32[2];
+  urad_scene_crc32(&scene.pod(), crc32);
+  findings->expect("the scene passes", urad_scene_verify(&scene.pod(), crc32) == URAD_OK);
+  constexpr int kBits = 64;
+  std::size_t missed = 0;
+  for (int k = 0; k < kBits; ++k) {
+    const std::size_t bit = choices.word() % scene.bits();
+    scene.flip(bit);
+    missed += urad_scene_verify(&scene.pod(), crc32) == URAD_OK;
+    scene.flip(bit);
+  }
+  findings->measure("single-bit faults that pass", double(missed), 0);
+}
+
 }  // namespace host

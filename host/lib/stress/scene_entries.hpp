@@ -13,4 +13,7 @@ void attack_engine(Choices choices, const urad_net& net, Findings* findings);
 /// and nothing written.
 void attack_arguments(Choices choices, const urad_net& net, Findings* findings);
 
+/// Bits of a good scene turned one at a time: urad_scene_verify() finds them all.
+void attack_bits(Choices choices, Findings* findings);
+
 }  // namespace host
