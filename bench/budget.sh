@@ -116,12 +116,14 @@ END
   row "shot, solver alone" - count shot_solver_alone
   row "shot by the moment kernel" - count shot_moment
   row "shot by the network" - count shot_network
+  row "shot by pose table" - count shot_table
   row "shot by hemicube:32" - count shot_hemicube_32
   row "shot by hemicube:32, near pairs by the network" - count shot_hemicube_32_near_network
   row "shot by hemicube:64" - count shot_hemicube_64
   row "shot by hemicube:64, near pairs by the network" - count shot_hemicube_64_near_network
   row "solve by the network, 1 %" "30,000,000" count solve_network
-  row "shots of that solve" - solved shots
+  row "solve by pose table, 1 %" "5,000,000" count solve_table
+  row "shots of the solve by the network" - solved shots
   row "deepest stack, bytes" 512 solved stack
 } >"$work/BUDGET.md"
 mkdir -p "$(dirname "$out")"

@@ -6,6 +6,9 @@
 // middle of the first surface.
 #include URAD_SCENE_HEADER
 #include URAD_NET_HEADER
+#ifdef URAD_POSES_HEADER
+#include URAD_POSES_HEADER
+#endif
 #include "port.hpp"
 #include "regions.hpp"
 #include "text.hpp"
@@ -14,6 +17,7 @@
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/lambert.hpp"
+#include "urad/pose_table.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/urad.h"
 
@@ -119,6 +123,23 @@ bool hemicube_shots(port::Writer& labels, const char* alone, const char* with_ne
          shots(labels, with_network, {urad::hybrid_fill, &hybrid}, kShots);
 }
 
+#ifdef URAD_POSES_HEADER
+bool table(port::Writer& labels, uint16_t shooter) {
+  urad::PoseSource poses = {&kScene, &URAD_POSES_NAME, &g_counters};
+  for (uint16_t s = 1; s < kScene.surface_count; ++s) {
+    const urad_surface& surface = kScene.surface[s];
+    const uint16_t count = surface.patch_count < kLongestRun ? surface.patch_count : kLongestRun;
+    measure(labels, "run_table", [&] {
+      g_sink = urad::pose_fill(&poses, shooter, s, surface.first_patch, count, g_factors);
+    });
+  }
+  return shots(labels, "shot_table", {urad::pose_fill, &poses}, kShots) &&
+         solve(labels, "solve_table", {urad::pose_fill, &poses});
+}
+#else
+bool table(port::Writer&, uint16_t) { return true; }
+#endif
+
 }  // namespace
 
 int run() {
@@ -149,7 +170,7 @@ int run() {
       shots(labels, "shot_solver_alone", {even_fill, nullptr}, kShots) &&
       shots(labels, "shot_moment", {urad::pair_fill, &kernel}, kShots) &&
       shots(labels, "shot_network", {urad::pair_fill, &network}, kShots) &&
-      solve(labels, "solve_network", {urad::pair_fill, &network}) &&
+      solve(labels, "solve_network", {urad::pair_fill, &network}) && table(labels, shooter) &&
       hemicube_shots<32>(labels, "shot_hemicube_32", "shot_hemicube_32_near_network") &&
       hemicube_shots<64>(labels, "shot_hemicube_64", "shot_hemicube_64_near_network");
   labels.flush();

@@ -1,4 +1,5 @@
-// solve IN OUT -- radiosity of one exported scene by its network; every integer of the result goes to OUT.
+// solve IN OUT [table] -- radiosity of one exported scene by its network; every integer of the result goes to OUT.
+// With the word `table`: by its pose table, if the image was built with one (URAD_POSES).
 //
 // IN is a text of integers, read at run time: the error at which to stop (UQ0.32), the largest number of shots, then
 // for each material in turn its reflectance (three, UQ1.15) and exitance (three). Materials that are left out stay as
@@ -7,10 +8,14 @@
 // The same source runs on boards and on the host: the two OUT files must be equal, byte for byte.
 #include URAD_SCENE_HEADER
 #include URAD_NET_HEADER
+#ifdef URAD_POSES_HEADER
+#include URAD_POSES_HEADER
+#endif
 #include "port.hpp"
 #include "text.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/network.hpp"
+#include "urad/pose_table.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/urad.h"
 
@@ -25,6 +30,12 @@ urad_material g_material[kMaterials];
 urad_scene g_scene;
 urad_counters g_counters;
 urad::Radiosity g_radiosity;
+
+#ifdef URAD_POSES_HEADER
+const urad_pose_table* const kPoses = &URAD_POSES_NAME;
+#else
+const urad_pose_table* const kPoses = nullptr;
+#endif
 
 struct Limits {
   int32_t error_uq32 = URAD_PERCENT;
@@ -114,7 +125,13 @@ int run() {
 
   const uint16_t rays = g_scene.flags & URAD_SCENE_CONVEX ? 0 : 16;
   urad::PairSource pairs = {&g_scene, &URAD_NET_NAME, urad::Kernel::moment, rays, 0, &g_counters};
-  const urad_source source = {urad::pair_fill, &pairs};
+  urad::PoseSource poses = {&g_scene, kPoses, &g_counters};
+  urad_source source = {urad::pair_fill, &pairs};
+  if (port::word(3, path, sizeof path)) {
+    if (path[0] != 't') return fail("third word must be table, or none");
+    if (urad::pose_table_check(kPoses, &g_scene) != urad::Status::ok) return fail("no pose table, or not of this scene");
+    source = {urad::pose_fill, &poses};
+  }
   const uint16_t longest = urad::longest_run(g_scene);
   if (urad::radiosity_init(&g_radiosity, &g_scene, source, URAD_OVERSHOOT, longest < kLongestRun ? longest : kLongestRun, g_memory,
                            sizeof g_memory) != urad::Status::ok)

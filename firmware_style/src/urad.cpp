@@ -4,6 +4,7 @@
 #include "urad/grid.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/network.hpp"
+#include "urad/pose_table.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/visibility.hpp"
 
@@ -70,6 +71,10 @@ urad_status urad_scene_verify(const urad_scene* scene, const uint32_t crc32[2]) 
 
 urad_status urad_net_check(const urad_net* net) { return c_status(urad::network_check(net)); }
 
+urad_status urad_pose_table_check(const urad_pose_table* table, const urad_scene* scene) {
+  return c_status(urad::pose_table_check(table, scene));
+}
+
 urad_status urad_grid_make(urad_point origin, urad_point step_u, urad_point step_v,
                            uint16_t count_u, uint16_t count_v, urad_grid* grid) {
   return c_status(urad::grid_make(origin, step_u, step_v, count_u, count_v, grid));
@@ -99,6 +104,19 @@ urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, 
   if (!pairs) return URAD_OUT_OF_MEMORY;
   *pairs = {scene, net, Kernel(kernel), rays, 0, counters};
   *source = {urad::pair_fill, pairs};
+  return URAD_OK;
+}
+
+size_t urad_pose_source_bytes(void) { return sizeof(urad::PoseSource); }
+
+urad_status urad_pose_source_init(urad_source* source, const urad_scene* scene,
+                                  const urad_pose_table* table, urad_counters* counters,
+                                  void* memory, size_t bytes) {
+  if (!source || !scene || !table || !counters || !memory) return URAD_BAD_ARGUMENT;
+  auto* const poses = place<urad::PoseSource>(memory, bytes);
+  if (!poses) return URAD_OUT_OF_MEMORY;
+  *poses = {scene, table, counters};
+  *source = {urad::pose_fill, poses};
   return URAD_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "net_option.hpp"
+#include "pose/pose_table.hpp"
 #include "report/animation.hpp"
 #include "report/apng.hpp"
 #include "report/instructions.hpp"
@@ -170,7 +171,7 @@ void run(const Options& options, const Common& common) {
   host::SolveGoal goal;
   goal.error = options.error;
   const std::string name = host::c_identifier(scene.name);
-  std::string light, scene_arrays;
+  std::string light, scene_arrays, pose_arrays;
   host::EngineRows rows;
   for (const host::MethodSpec& spec : host::parse_methods(options.methods)) {
     if (!common.quiet) fmt::print(stderr, "{}: {}\n", options.scene.name, spec.text());
@@ -199,6 +200,13 @@ void run(const Options& options, const Common& common) {
     if (scene_arrays.empty() || spec.name == "net") {
       scene_arrays = host::scene_to_c(solver.fixed(), name, report.command);
     }
+    if (spec.name == "table") {
+      const host::PoseLayout& layout = solver.poses().layout();
+      pose_arrays = host::poses_to_c(solver.poses(), name, report.command);
+      result.memory.push_back(
+          {"pose table, in flash", host::bytes_text(std::int64_t(layout.bytes()))});
+      report.facts.push_back({"Distinct relative poses", std::to_string(layout.classes)});
+    }
     report.methods.push_back(std::move(result));
   }
 
@@ -223,6 +231,10 @@ void run(const Options& options, const Common& common) {
     files.push_back({(folder / "scene.h").string(), scene_arrays});
     files.push_back({(folder / "light.h").string(), light});
     report.files.push_back({"scene.h, light.h", "the scene and its light as C arrays"});
+  }
+  if (!pose_arrays.empty()) {
+    files.push_back({(folder / "poses.h").string(), pose_arrays});
+    report.files.push_back({"poses.h", "the pose table as C arrays"});
   }
   files.push_back({(folder / "report.json").string(), host::report_json({report})});
   files.push_back({(folder / "report.html").string(), host::report_html({report})});

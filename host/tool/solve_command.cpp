@@ -120,7 +120,7 @@ void add_solve(CLI::App& app, const Common& common) {
   options->scene.add_to(command);
   command
       ->add_option("--method", options->method,
-                   "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, hemicube:R, "
+                   "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, table, hemicube:R, "
                    "hybrid[:R], or a "
                    "pair method in double")
       ->required();

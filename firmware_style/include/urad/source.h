@@ -31,6 +31,7 @@ typedef struct urad_counters {
   uint32_t blockers_rejected;   /* the same, rejected by their bounds before any ray */
   uint32_t rows;                /* hemicube rows summed */
   uint32_t rows_empty;          /* rows of faces in use that nothing touched, left out */
+  uint32_t poses;               /* evaluated by a load: pose already seen */
 } urad_counters;
 
 /* Fills f_uq32[0 .. count-1] with the form factors F (UQ0.32, saturating) from patch `shooter` to patches

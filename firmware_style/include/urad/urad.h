@@ -31,6 +31,7 @@
 #include <stdint.h>
 
 #include "urad/net.h"
+#include "urad/pose_table.h"
 #include "urad/radiosity.h"
 #include "urad/scene.h"
 #include "urad/source.h"
@@ -57,6 +58,10 @@ urad_status urad_scene_verify(const urad_scene* scene, const uint32_t crc32[2]);
 /* Checks a net: ABI, sizes, shifts, accumulators that cannot overflow, CRC-32. URAD_OK, or
  * URAD_BAD_NET; a null net is URAD_BAD_NET too. */
 urad_status urad_net_check(const urad_net* net);
+
+/* Checks a pose table against the scene it was made for: that no factor lies outside its values.
+ * URAD_OK, URAD_BAD_SCENE, or URAD_BAD_ARGUMENT for null. */
+urad_status urad_pose_table_check(const urad_pose_table* table, const urad_scene* scene);
 
 /* ---- geometry ------------------------------------------------------------------------------ */
 
@@ -98,6 +103,14 @@ size_t urad_pair_source_bytes(void);
 /* Kernel or network for every pair, as urad_form_factor(). net may be null; counters may not. */
 urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, unsigned kernel,
                                   const urad_net* net, uint16_t rays, urad_counters* counters,
+                                  void* memory, size_t bytes);
+
+size_t urad_pose_source_bytes(void);
+
+/* A load per pair from a table made on the host, which holds visibility and repair. Kept: table,
+ * too. */
+urad_status urad_pose_source_init(urad_source* source, const urad_scene* scene,
+                                  const urad_pose_table* table, urad_counters* counters,
                                   void* memory, size_t bytes);
 
 /* Delta form factors of a quadrant of the top and of half a side, UQ0.32, [R/2 * R/2] each;

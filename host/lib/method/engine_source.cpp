@@ -15,6 +15,7 @@
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/lambert.hpp"
+#include "urad/pose_table.hpp"
 #include "urad/visibility.hpp"
 
 namespace host {
@@ -24,7 +25,7 @@ namespace {
 constexpr int kDefaultHemicube = 64;
 
 constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert", "net",
-                                       "auto",         "hemicube",     "hybrid"};
+                                       "auto",         "hemicube",     "hybrid",       "table"};
 
 void add(urad_counters* sum, const urad_counters& part) {
   auto* to = reinterpret_cast<std::uint32_t*>(sum);
@@ -71,6 +72,7 @@ struct EngineSource::State {
   urad::PairSource pairs{};
   HemicubeHolder hemicube;
   urad::HybridSource hybrid{};
+  urad::PoseSource poses{};
   urad_source source{};
   std::size_t ram = 0;
 
@@ -81,6 +83,13 @@ struct EngineSource::State {
     pairs.bound_uq32 = std::uint32_t(options.bound * 4294967296.0);
     source = {urad::pair_fill, &pairs};
     ram = sizeof pairs;
+  }
+
+  void use_poses(const urad_pose_table* table) {
+    if (!table) throw UsageError("--method table: only scenes have a pose table, free pairs do not");
+    poses.scene = scene, poses.table = table, poses.counters = &counters;
+    source = {urad::pose_fill, &poses};
+    ram = sizeof poses;
   }
 
   void use_cheapest(std::int16_t log2_error_q8, const urad_net* net, const EngineOptions& options) {
@@ -144,6 +153,9 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
     state_->use_hybrid(
         spec.number(kDefaultHemicube, urad::kHemicubeMinResolution, urad::kHemicubeMaxResolution),
         &nets.find(""), options);
+  } else if (spec.name == "table") {
+    spec.expect_no_argument();
+    state_->use_poses(options.poses);
   } else {
     throw UsageError(fmt::format("--method {}: not a method of the engine; those are {}",
                                  spec.text(), fmt::join(kEngineMethods, ", ")));

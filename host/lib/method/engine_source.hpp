@@ -10,6 +10,7 @@
 #include "scene/fixed_scene.hpp"
 #include "urad/cheapest.hpp"
 #include "urad/form_factor.hpp"
+#include "urad/pose_table.h"
 #include "urad/source.h"
 
 namespace host {
@@ -21,6 +22,7 @@ struct EngineOptions {
   int cuts = 0;             ///< with it: cuts of patches where rays disagree
   bool all_rows = false;    ///< the hemicube sums faces and rows that nothing touched, too
   double bound = 0;         ///< pairs: no row may lose more by leaving out small factors; 0: none
+  const urad_pose_table* poses = nullptr;  ///< what `table` loads from; must outlive the source
 };
 
 /// True for the methods that run in the engine's integers.
@@ -38,6 +40,8 @@ std::int16_t auto_error_q8(const MethodSpec& spec);
 ///   hybrid[:R]                       occluded: the network's factor times the visible fraction of the
 ///                                    hemicube; convex: the network's for pairs closer than three
 ///                                    patches, else the hemicube's
+///   table                            a load per pair from options.poses
+///   table                            a load per pair from options.poses
 class EngineSource {
  public:
   /// Throws Error for an unknown method or a value out of range.

@@ -25,6 +25,7 @@ Json counters_json(const urad_counters& c) {
           {"skipped_facing", c.skipped_facing},
           {"clipped", c.clipped},
           {"far_pairs", c.far_pairs},
+          {"poses", c.poses},
           {"blocked", c.blocked},
           {"rays", c.rays},
           {"ray_tests", c.ray_tests},

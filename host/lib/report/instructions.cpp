@@ -45,6 +45,7 @@ std::optional<double> InstructionCounts::per_shot(const std::string& method) con
   static const std::map<std::string, std::string> names = {
       {"net", "shot_network"},
       {"fixed-moment", "shot_moment"},
+      {"table", "shot_table"},
       {"hemicube:32", "shot_hemicube_32"},
       {"hybrid:32", "shot_hemicube_32_near_network"},
       {"hemicube:64", "shot_hemicube_64"},

@@ -195,6 +195,7 @@ std::string skips_html(const BakeReport& report) {
        {"Evaluated", counter(&urad_counters::evaluated), count_text, false},
        {"Clipped", counter(&urad_counters::clipped), count_text, false},
        {"Far,<br>kernel alone", counter(&urad_counters::far_pairs), count_text, false},
+       {"Loaded:<br>pose seen", counter(&urad_counters::poses), count_text, false},
        {"Networks", counter(&urad_counters::networks), count_text, false},
        {"No blockers:<br>convex", counter(&urad_counters::skipped_convex), count_text, false},
        {"Blocked", counter(&urad_counters::blocked), count_text, false},

@@ -19,21 +19,25 @@ std::string upper(std::string text) {
   return text;
 }
 
-void check_name(const std::string& name) {
+}  // namespace
+
+const std::string& check_c_name(const std::string& name) {
   const bool good = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
                     std::all_of(name.begin(), name.end(),
                                 [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   if (!good)
     throw Error(fmt::format(
         "'{}' cannot be the name of a C array; use letters, digits and underscores", name));
+  return name;
 }
 
-// Nothing in a banner may end the comment.
-std::string comment_text(std::string text) {
+std::string c_comment(std::string text) {
   for (std::size_t at = text.find("*/"); at != text.npos; at = text.find("*/", at))
     text.insert(at + 1, " ");
   return text;
 }
+
+namespace {
 
 // INT32_MIN has no literal in C.
 std::string integer(std::int64_t x) {
@@ -82,7 +86,7 @@ std::string open_header(const Banner& banner) {
       "#if URAD_SCENE_ABI != {}\n"
       "#error \"{}.h was exported for scene ABI {}: export it again\"\n"
       "#endif\n\n",
-      comment_text(banner.command), banner.what, banner.units, banner.bytes, guard, guard,
+      c_comment(banner.command), banner.what, banner.units, banner.bytes, guard, guard,
       URAD_SCENE_ABI, banner.name, URAD_SCENE_ABI);
 }
 
@@ -108,7 +112,7 @@ std::string c_identifier(const std::string& text) {
 
 std::string scene_to_c(const FixedScene& scene, const std::string& name,
                        const std::string& command) {
-  check_name(name);
+  check_c_name(name);
   const urad_scene& s = scene.pod();
   const std::string prefix = "urad_" + name + "_";
 
@@ -189,7 +193,7 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
 
 std::string light_to_c(const FixedScene& scene, const std::vector<std::int32_t>& radiosity,
                        const std::string& name, const std::string& command) {
-  check_name(name);
+  check_c_name(name);
   const std::size_t patches = scene.pod().patch_count;
   if (radiosity.size() != 3 * patches)
     throw Error(fmt::format("{} integers of light for a scene of {} patches and 3 channels",

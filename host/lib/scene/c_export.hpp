@@ -23,4 +23,10 @@ std::string light_to_c(const FixedScene& scene, const std::vector<std::int32_t>&
 /// never a digit first.
 std::string c_identifier(const std::string& text);
 
+/// `name` if it is a C identifier; throws Error otherwise.
+const std::string& check_c_name(const std::string& name);
+
+/// `text` such that it cannot end a C comment.
+std::string c_comment(std::string text);
+
 }  // namespace host

@@ -102,7 +102,17 @@ const ExactSolution& SceneSolver::exact() {
   return *exact_;
 }
 
+const PoseTable& SceneSolver::poses() {
+  if (!poses_) poses_.emplace(make_pose_table(scene_, fixed_, threads_, rays_));
+  return *poses_;
+}
+
 EngineRows SceneSolver::rows_of(const MethodSpec& spec, const NetChoice& nets) {
+  if (spec.name == "table") {
+    EngineOptions options = options_;
+    options.poses = &poses().pod();
+    return engine_rows(fixed_, spec, nets, options, threads_);
+  }
   if (is_engine_method(spec)) return engine_rows(fixed_, spec, nets, options_, threads_);
   const FreePairMethod method = pair_method(spec, nets);
   const EmbreeVisibility visibility(scene_, rays_);
@@ -135,7 +145,8 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   const Eigen::MatrixXd f = matrix(run.rows);
   run.factors = factor_errors(scene_, f, exact().form_factors);
   EngineRows repaired_rows = run.rows;
-  if (scene_.closed && spec.name != "hemicube") {  // a hemicube's rows sum to 1 by themselves
+  // A hemicube's rows sum to 1 by themselves, and so do those of exact factors.
+  if (scene_.closed && spec.name != "hemicube" && spec.name != "table") {
     run.scale = symmetric_scale(scene_, f);
     fixed_.set_scale(run.scale);
     repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, options_, threads_)

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "pose/pose_table.hpp"
 #include "solve/fixed_solve.hpp"
 
 namespace host {
@@ -43,6 +44,8 @@ class SceneSolver {
   const FixedScene& fixed() const { return fixed_; }
   /// Computed once, at the first call.
   const ExactSolution& exact();
+  /// The pose table of `table`, made at the first call.
+  const PoseTable& poses();
   /// A method of the engine, or a pair method in double whose factors (times the exact visible
   /// fractions) the engine solves with. Throws Error for an unknown method.
   MethodRun run(const MethodSpec& spec, const NetChoice& nets, const SolveGoal& goal);
@@ -57,6 +60,7 @@ class SceneSolver {
   int rays_;
   EngineOptions options_;
   std::optional<ExactSolution> exact_;
+  std::optional<PoseTable> poses_;
 };
 
 }  // namespace host
