@@ -28,13 +28,13 @@ int32_t mirrored(int32_t position, uint8_t mirror) noexcept {
 }
 
 /// count >= 1 values from value[at] on.
-void load(const uint32_t* value, int32_t at, int32_t stride, uint32_t count,
-          uint32_t* f_uq32) noexcept {
+[[gnu::always_inline]] inline void load(const uint32_t* value, int32_t at, int32_t stride,
+                                        uint32_t count, uint32_t* f_uq32) noexcept {
   const uint32_t* const end = f_uq32 + count;
-  do {
-    *f_uq32++ = value[at];
-    at += stride;
-  } while (f_uq32 != end);
+  for (value += at;; value += stride) {
+    *f_uq32++ = *value;
+    if (f_uq32 == end) return;  // before value leaves the table
+  }
 }
 
 /// A run within one row of receivers: down to the mirror, then up from it.

@@ -23,8 +23,8 @@ struct PoseSource {
 /// outside its values. Call it on data that is not trusted; the scene has passed scene_check().
 Status pose_table_check(const urad_pose_table* table, const urad_scene* scene) noexcept;
 
-/// urad_fill for a PoseSource: a load per factor. About 8 instructions per receiver, 40 per row of
-/// a grid and 150 per run on a Cortex-M0, counted.
+/// urad_fill for a PoseSource: a load per factor. 5 instructions per receiver, 70 per row of
+/// a grid and 200 per run on a Cortex-M0, counted.
 urad_status pose_fill(void* pose_source, uint16_t shooter, uint16_t surface, uint16_t first,
                       uint16_t count, uint32_t* f_uq32) noexcept;
 

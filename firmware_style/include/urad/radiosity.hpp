@@ -64,8 +64,8 @@ Status radiosity_init(Radiosity* state, const urad_scene* scene, const urad_sour
 /// - diverges: over patch_count shots (with overshooting over 64 at least, four times in a row) the
 ///   sum of |unshot| fell by less than 1/4096; the status stays.
 ///
-/// Cost on a Cortex-M0, counted in the code: 23 instructions (-Os; -O2: 21) per receiver and
-/// channel, 36 per receiver for the sum of the row and the choice of the next shooter, and the
+/// Cost on a Cortex-M0, counted in the code: 17 instructions (-O2) per receiver and
+/// channel, 25 per receiver for the sum of the row and the choice of the next shooter, and the
 /// source's.
 Status radiosity_step(Radiosity* state) noexcept;
 
