@@ -98,7 +98,7 @@ int32_t exchange_in_front_q24(const urad_scene& scene, const Patch& i, const Pat
 
 int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch& j, int points,
                            urad_counters* counters) noexcept {
-  const int32_t log2_g_q24 = lambert_exchange_log2_q24(scene, i, j, points);
+  const int32_t log2_g_q24 = lambert_exchange_log2_q24(scene, i, j, points, &counters->sums);
   if (log2_g_q24 == kNoExchange) return no_exchange(counters);
   ++counters->evaluated;
   ++counters->near_pairs;

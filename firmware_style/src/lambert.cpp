@@ -43,6 +43,8 @@ class Sum {
   /// sum of area times factor, 2^-22 of a span; sum of area.
   int64_t exchange() const noexcept { return exchange_; }
   int64_t area() const noexcept { return area_; }
+  /// Points so far.
+  uint32_t count() const noexcept { return count_; }
 
  private:
   void add_points(const Piece& piece, const Cell& cell) noexcept {
@@ -57,6 +59,7 @@ class Sum {
         const urad_point x = point_of(piece, u_q30, v_q30);
         exchange_ += round_shift(weight * lambert_sum_uq30(x, normal_q30_, receiver_), 8);
         area_ += weight;
+        ++count_;
       }
     }
   }
@@ -91,12 +94,13 @@ class Sum {
   urad_point normal_q30_;
   int points_;
   int64_t exchange_ = 0, area_ = 0;
+  uint32_t count_ = 0;
 };
 
 }  // namespace
 
 int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j,
-                                  int points) noexcept {
+                                  int points, uint32_t* sums) noexcept {
   LambertPair pair;
   if (!lambert_pair(scene, i, j, &pair)) return kNoExchange;
   const urad_point& n = pair.carrier->shape->normal_q30;
@@ -104,6 +108,7 @@ int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const
   const Pieces pieces(from, n);
   Sum sum(to, n, points);
   pieces.for_each([&](int, const Piece& piece) { sum.add(piece); });
+  if (sums) *sums += sum.count();
   return pair.log2_exchange_q24(sum.exchange(), sum.area(), pieces.exponent());
 }
 

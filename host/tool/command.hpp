@@ -18,6 +18,7 @@ const urad_net* shipped_net(const std::string& name);
 void add_formfactor(CLI::App& app, const Common& common);
 void add_solve(CLI::App& app, const Common& common);
 void add_bake(CLI::App& app, const Common& common);
+void add_plan(CLI::App& app, const Common& common);
 void add_train(CLI::App& app, const Common& common);
 void add_export(CLI::App& app, const Common& common);
 void add_evaluate(CLI::App& app, const Common& common);

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   tool::add_formfactor(app, common);
   tool::add_solve(app, common);
   tool::add_bake(app, common);
+  tool::add_plan(app, common);
   tool::add_train(app, common);
   tool::add_export(app, common);
   tool::add_evaluate(app, common);

@@ -35,10 +35,11 @@ uint32_t point_factor_uq30(const urad_scene& scene, const urad_point& x,
 ///   Pieces    a whole convex quadrilateral is one bilinear piece; anything else is a fan of
 ///             triangles about the mean of its vertices. Signed areas cancel outside a concave
 ///             patch, so the rule is exact for low moments of any polygon
+///   Sums      null, or the number of points is added to it: what the pair costs
 ///   Cells     a piece is halved along its longer sides, up to 6 times a side and 8 times in all,
 ///             where an edge or vertex of the other is near by its size: there the factor bends
 int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j,
-                                  int points) noexcept;
+                                  int points, uint32_t* sums = nullptr) noexcept;
 
 /// A sum and how much it doubts itself.
 struct LambertSum {

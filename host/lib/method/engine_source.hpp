@@ -41,7 +41,6 @@ std::int16_t auto_error_q8(const MethodSpec& spec);
 ///                                    hemicube; convex: the network's for pairs closer than three
 ///                                    patches, else the hemicube's
 ///   table                            a load per pair from options.poses
-///   table                            a load per pair from options.poses
 class EngineSource {
  public:
   /// Throws Error for an unknown method or a value out of range.

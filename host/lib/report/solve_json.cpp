@@ -26,6 +26,7 @@ Json sweep(const urad_counters& c) {
           {"clipped", c.clipped},
           {"far_pairs", c.far_pairs},
           {"near_pairs", c.near_pairs},
+          {"near_sums", c.sums},
           {"poses", c.poses},
           {"blocked", c.blocked},
           {"rays", c.rays},

@@ -110,6 +110,15 @@ std::string c_identifier(const std::string& text) {
   return name;
 }
 
+std::size_t scene_flash_bytes(const urad_scene& s, bool scaled) {
+  std::size_t bytes = kSceneBytes + s.surface_count * kSurfaceBytes +
+                      s.material_count * kMaterialBytes + s.blocker_count * kBlockerBytes +
+                      s.vertex_count * kPointBytes + (scaled ? std::size_t{4} * s.patch_count : 0);
+  for (std::size_t k = 0; k < s.surface_count; ++k)
+    bytes += s.surface[k].grid ? kGridBytes : s.surface[k].patch_count * kPolygonBytes;
+  return bytes;
+}
+
 std::string scene_to_c(const FixedScene& scene, const std::string& name,
                        const std::string& command) {
   check_c_name(name);
@@ -131,10 +140,6 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
     }
   }
   const bool scaled = s.log2_scale_q24 != nullptr;
-  const std::size_t bytes = grids.size() * kGridBytes + polygons.size() * kPolygonBytes +
-                            s.surface_count * kSurfaceBytes + s.material_count * kMaterialBytes +
-                            s.blocker_count * kBlockerBytes + s.vertex_count * kPointBytes +
-                            (scaled ? std::size_t{4} * s.patch_count : 0) + kSceneBytes;
   std::string text = open_header(
       {fmt::format("scene '{}': {} patches on {} surfaces ({} grids), {} materials, {} blockers",
                    name, s.patch_count, s.surface_count, grids.size(), s.material_count,
@@ -142,7 +147,7 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
        command, name,
        fmt::format("1 unit of the file = {:.17g} scene units; exitance 1 of the file = {:.17g}",
                    scene.units_per_length(), 1 / scene.exitance_unit()),
-       bytes});
+       scene_flash_bytes(s, scaled)});
 
   text += array("urad_point", prefix + "vertex", s.vertex, s.vertex_count, point);
   text += array("urad_grid", prefix + "grid", grids.data(), grids.size(), [](const urad_grid& g) {

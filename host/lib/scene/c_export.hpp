@@ -19,6 +19,9 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
 std::string light_to_c(const FixedScene& scene, const std::vector<std::int32_t>& radiosity,
                        const std::string& name, const std::string& command);
 
+/// Flash of the exported scene on a 32-bit chip, with or without a repair factor per patch.
+std::size_t scene_flash_bytes(const urad_scene& scene, bool scaled);
+
 /// Letters, digits and underscores of the file name in `text`, without its extension; never empty,
 /// never a digit first.
 std::string c_identifier(const std::string& text);
