@@ -1,5 +1,8 @@
 #include "solve/relight.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -65,6 +68,15 @@ std::vector<Vec3> Relighting::radiosity() const {
   for (std::size_t k = 0; k < b.size(); ++k) {
     for (int c = 0; c < 3; ++c)
       b[k][c] = urad::radiosity_get(state_, std::uint16_t(k), c) * fixed_.exitance_unit();
+  }
+  return b;
+}
+
+std::vector<Vec3> Relighting::display() const {
+  std::vector<Vec3> b(scene_.patches.size());
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    for (int c = 0; c < 3; ++c)
+      b[k][c] = urad::radiosity_display(state_, std::uint16_t(k), c) * fixed_.exitance_unit();
   }
   return b;
 }

@@ -26,6 +26,8 @@ class Relighting {
   int step(int shots);
 
   std::vector<Vec3> radiosity() const;
+  /// With the ambient term: what to show before the light has settled.
+  std::vector<Vec3> display() const;
   /// What the same factors converge to with lamps and walls as they are now.
   std::vector<Vec3> converged() const;
   /// Relative rms error of radiosity() against `truth`, lamps' own exitance left out.

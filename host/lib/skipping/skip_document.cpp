@@ -1,0 +1,173 @@
+// docs/SKIPPING.md, written from a run.
+#include <fmt/format.h>
+
+#include "skipping/skip_report.hpp"
+
+namespace host {
+namespace {
+
+std::string grouped(double value) {
+  std::string digits = fmt::format("{:.0f}", value);
+  for (int k = int(digits.size()) - 3; k > 0; k -= 3) digits.insert(std::size_t(k), ",");
+  return digits;
+}
+
+std::string per_cent(double part, double whole) {
+  return whole > 0 ? fmt::format("{:.1f} %", 100 * part / whole) : "-";
+}
+
+template <class Cell>
+std::string row(const std::string& name, const std::vector<SkipReport>& reports, const Cell& cell) {
+  std::string line = "| " + name;
+  for (const SkipReport& r : reports) line += " | " + cell(r);
+  return line + " |\n";
+}
+
+std::string head(const std::string& first, const std::vector<SkipReport>& reports) {
+  std::string line = "| " + first, rule = "| ---";
+  for (const SkipReport& r : reports) line += " | " + r.scene, rule += " | ---:";
+  return line + " |\n" + rule + " |\n";
+}
+
+template <class Pod>
+std::string counted(const std::string& name, const std::vector<SkipReport>& reports,
+                    Pod SkipReport::*pod, std::uint32_t Pod::*field) {
+  return row(name, reports, [&](const SkipReport& r) { return grouped((r.*pod).*field); });
+}
+
+std::string sweep_table(const std::vector<SkipReport>& reports) {
+  using C = urad_counters;
+  constexpr auto pairs = &SkipReport::by_pairs;
+  constexpr auto hybrid = &SkipReport::by_hybrid;
+  std::string text = head("one sweep, all ordered pairs", reports);
+  text += row("patches", reports, [](const SkipReport& r) { return grouped(double(r.patches)); });
+  text += row("polygons that can stand between", reports,
+              [](const SkipReport& r) { return grouped(double(r.blockers)); });
+  text += row("facing, of all pairs", reports, [](const SkipReport& r) {
+    return per_cent(double(r.pairs.facing), double(r.pairs.all));
+  });
+  text += row("partly seen, of those", reports, [](const SkipReport& r) {
+    return per_cent(double(r.pairs.partly), double(r.pairs.facing));
+  });
+  text += row("blocked, of those", reports, [](const SkipReport& r) {
+    return per_cent(double(r.pairs.blocked), double(r.pairs.facing));
+  });
+  text += row("pairs", reports, [](const SkipReport& r) {
+    return grouped(double(r.patches) * double(r.patches - 1));
+  });
+  text += counted("skipped: same surface", reports, pairs, &C::skipped_same);
+  text += counted("skipped: wholly behind, with one look", reports, pairs, &C::skipped_behind);
+  text += row("skipped: facing away, one by one", reports, [](const SkipReport& r) {
+    return grouped(double(r.by_pairs.skipped_facing) - r.by_pairs.skipped_behind);
+  });
+  text += counted("evaluated", reports, pairs, &C::evaluated);
+  text += counted("of those far: no network", reports, pairs, &C::far_pairs);
+  text += counted("convex: no thought of blockers", reports, pairs, &C::skipped_convex);
+  text += counted("rays", reports, pairs, &C::rays);
+  text += counted("rays spared: no blocker reaches between", reports, pairs, &C::rays_spared);
+  text += counted("blockers times pairs kept", reports, pairs, &C::blockers_kept);
+  text += counted("blockers rejected unseen", reports, pairs, &C::blockers_rejected);
+  text += counted("ray against polygon", reports, pairs, &C::ray_tests);
+  text += counted(fmt::format("left out below a bound of {:.3g} a row", kSkipBound), reports,
+                  &SkipReport::bounded, &C::skipped_small);
+  text += counted("rays with that bound", reports, &SkipReport::bounded, &C::rays);
+  text += counted("hybrid:64, cells", reports, hybrid, &C::cells);
+  text += counted("hybrid:64, rows summed", reports, hybrid, &C::rows);
+  text += counted("hybrid:64, rows empty", reports, hybrid, &C::rows_empty);
+  text += counted("hybrid:64, faces empty", reports, hybrid, &C::faces_empty);
+  text += counted("hybrid:64, rays", reports, hybrid, &C::rays);
+  return text;
+}
+
+double count_of(const SkipReport& r, const std::string& what) {
+  const auto at = r.instructions.find(what);
+  return at == r.instructions.end() ? 0 : at->second;
+}
+
+/// A scene larger than a board's memory has no solver's part.
+std::string counted_or_dash(const SkipReport& r, const std::string& what) {
+  const double count = count_of(r, what);
+  return count > 0 ? grouped(count) : "-";
+}
+
+/// Row and solver together.
+double shot(const SkipReport& r, bool all_off) {
+  return count_of(r, all_off ? "all" : "on") + count_of(r, all_off ? "solver_all" : "solver_on");
+}
+
+std::string instruction_table(const std::vector<SkipReport>& reports) {
+  std::string text = head("Cortex-M0 instructions of a row of factors", reports);
+  text +=
+      row("all skips on", reports, [](const SkipReport& r) { return grouped(count_of(r, "on")); });
+  for (const auto& [name, label] : std::vector<std::pair<std::string, std::string>>{
+           {"same", "same surface off"},
+           {"behind", "wholly behind off"},
+           {"facing", "facing away off"},
+           {"far", "far pairs off"},
+           {"convex", "convex off"},
+           {"blockers", "blockers unseen off"},
+           {"all", "all off"},
+           {"bounded", fmt::format("on, and a bound of {:.3g} a row", kSkipBound)}}) {
+    text += row(label, reports, [&, what = name](const SkipReport& r) {
+      const double on = count_of(r, "on"), off = count_of(r, what);
+      return on > 0 ? fmt::format("x {:.2f}", off / on) : "-";
+    });
+  }
+  text += row("solver's part of a shot, skips on", reports,
+              [](const SkipReport& r) { return counted_or_dash(r, "solver_on"); });
+  text += row("solver's part, all off", reports,
+              [](const SkipReport& r) { return counted_or_dash(r, "solver_all"); });
+  text += row("to 1 % rms, all on, million", reports, [](const SkipReport& r) {
+    return grouped(shot(r, false) * r.early.back().shots[3] / 1e6);
+  });
+  text += row("to 1 % rms, all off, million", reports, [](const SkipReport& r) {
+    return grouped(shot(r, true) * r.early.back().shots[3] / 1e6);
+  });
+  text += row("**saved at equal error**", reports, [](const SkipReport& r) {
+    return shot(r, false) > 0 ? fmt::format("**x {:.2f}**", shot(r, true) / shot(r, false)) : "-";
+  });
+  return text;
+}
+
+std::string early_table(const std::vector<SkipReport>& reports) {
+  std::string text =
+      "| scene | shown | 10 % | 5 % | 2 % | 1 % | 10 % over 1 % |\n"
+      "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
+  for (const SkipReport& r : reports) {
+    const int least = r.early.back().shots[3];
+    for (const EarlyAnswer& e : r.early) {
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", r.scene, e.name, e.shots[0],
+                          e.shots[1], e.shots[2], e.shots[3], per_cent(e.shots[0], least));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string skip_document(const std::vector<SkipReport>& reports, const std::string& command,
+                          const std::string& chart) {
+  return "# What is left out, and what that saves\n\nWritten by `" + command +
+         "`.\n\nEvery skip has a counter in the run's JSON and report, and a switch for tests. "
+         "With "
+         "one skip off the integers\nare the same and the work rises by what its counter says "
+         "(`tests/skipping_test.cpp`). One skip may change light:\nbounded contribution, off "
+         "unless "
+         "asked for (`urad solve --bound`), which loses at most its bound of a row.\n\n" +
+         fmt::format(
+             "Rows are those of the general network with {} rays for each pair that a "
+             "blocker may stand between.\n\n![what becomes of all pairs]({})\n\n",
+             kSkipRays, chart) +
+         sweep_table(reports) +
+         "\n## Instructions\n\nCounted on an emulated Cortex-M0 over six rows spread evenly over "
+         "each scene: times the instructions\nwith all skips on. A shot is a row and the solver's "
+         "part; shots to 1 % rms are those of overshooting with\nambient term, below.\n\n" +
+         instruction_table(reports) +
+         "\n## Early answers\n\nShots until what is shown is within so much (relative rms) of the "
+         "converged light of the same factors,\nlargest unshot power first. The last column: of "
+         "the "
+         "shots that overshooting with ambient term takes to 1 %.\n\n" +
+         early_table(reports);
+}
+
+}  // namespace host

@@ -1,0 +1,49 @@
+// What every skip leaves out in a scene, what that saves on a Cortex-M0, and how early the light can
+// be shown.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "method/engine_source.hpp"
+#include "solve/pair_statistics.hpp"
+
+namespace host {
+
+/// Shots until the error of what is shown falls to 10, 5, 2 and 1 % of the converged light; 0: not
+/// reached.
+struct EarlyAnswer {
+  std::string name;
+  int shots[4] = {0, 0, 0, 0};
+};
+inline constexpr double kEarlyErrors[4] = {0.1, 0.05, 0.02, 0.01};
+
+struct SkipReport {
+  std::string scene;
+  std::size_t patches = 0, blockers = 0;
+  PairStatistics pairs;
+  urad_counters by_pairs{};   ///< one sweep of the network with rays
+  urad_counters bounded{};    ///< the same with bounded contribution
+  urad_counters by_hybrid{};  ///< one sweep of hybrid:64
+  std::vector<EarlyAnswer> early;
+  /// Mean instructions of a row by "on", "same", ..., "all", "bounded", and of a shot's solver by
+  /// "solver_on", "solver_all"; empty: not counted.
+  std::map<std::string, double> instructions;
+};
+
+inline constexpr int kSkipRays = 16;            ///< as in firmware_style/ports/skips_main.cpp
+inline constexpr double kSkipBound = 1.0 / 64;  ///< the same
+
+/// Sweeps and solves. `counted`: JSON of bench/icount with PROGRAM=skips, or empty. Throws Error
+/// when that file is not of the form.
+SkipReport skip_report(const std::string& scene, const NetChoice& nets, const std::string& counted,
+                       int threads);
+
+/// docs/SKIPPING.md. `chart`: file name of the bar chart beside it.
+std::string skip_document(const std::vector<SkipReport>& reports, const std::string& command,
+                          const std::string& chart);
+
+/// Bars of pairs by what became of them, a scene each.
+std::string skip_chart(const std::vector<SkipReport>& reports);
+
+}  // namespace host
