@@ -13,7 +13,7 @@ namespace {
 const urad_scene& kScene = URAD_SCENE_NAME;
 
 constexpr uint16_t kLongestRun = 64;
-constexpr uint16_t kRays = 16;
+constexpr uint16_t kRays = 16, kManyRays = 64;
 constexpr uint32_t kRows = 6;
 constexpr int kShots = 6;
 
@@ -40,6 +40,8 @@ struct Setting {
   const char* label;
   uint32_t skips_off;
   uint32_t bound_uq32;
+  uint16_t rays = kRays;
+  uint32_t error_uq32 = 0;
 };
 
 constexpr uint32_t kAll = urad::skip_off_far | urad::skip_off_facing | urad::skip_off_same |
@@ -52,7 +54,9 @@ constexpr Setting kSettings[] = {{"on", 0, 0},
                                  {"convex", urad::skip_off_convex, 0},
                                  {"blockers", urad::skip_off_blockers, 0},
                                  {"all", kAll, 0},
-                                 {"bounded", 0, 1u << 26}};
+                                 {"bounded", 0, 1u << 26},
+                                 {"all_64", kAll, 0, kManyRays},
+                                 {"worth_64", 0, 0, kManyRays, 1u << 26}};
 
 /// Factors whose runs are at times dark, at no cost.
 urad_status even_fill(void*, uint16_t, uint16_t surface, uint16_t, uint16_t count,
@@ -87,7 +91,9 @@ int run() {
   for (const Setting& setting : kSettings) {
     urad::PairSource pairs = {&kScene, &URAD_NET_NAME,    urad::Kernel::moment,
                               kRays,   setting.skips_off, &g_counters};
+    pairs.rays = setting.rays;
     pairs.bound_uq32 = setting.bound_uq32;
+    pairs.error_uq32 = setting.error_uq32;
     for (uint32_t k = 0; k < kRows; ++k) {
       const auto shooter = uint16_t(((2 * k + 1) * kScene.patch_count) / (2 * kRows));
       URAD_REGION_BEGIN();

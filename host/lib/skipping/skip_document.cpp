@@ -126,6 +126,14 @@ std::string instruction_table(const std::vector<SkipReport>& reports) {
   text += row("**saved at equal error**", reports, [](const SkipReport& r) {
     return shot(r, false) > 0 ? fmt::format("**x {:.2f}**", shot(r, true) / shot(r, false)) : "-";
   });
+  text += row("64 rays a pair, all off: error of B", reports,
+              [](const SkipReport& r) { return fmt::format("{:.2f} %", 100 * r.error_fixed); });
+  text += row("64 rays by worth, all on: error of B", reports,
+              [](const SkipReport& r) { return fmt::format("{:.2f} %", 100 * r.error_worth); });
+  text += row("**saved, both within 1 %**", reports, [](const SkipReport& r) {
+    const double on = count_of(r, "worth_64");
+    return on > 0 ? fmt::format("**x {:.2f}**", count_of(r, "all_64") / on) : "-";
+  });
   return text;
 }
 
@@ -147,27 +155,35 @@ std::string early_table(const std::vector<SkipReport>& reports) {
 
 std::string skip_document(const std::vector<SkipReport>& reports, const std::string& command,
                           const std::string& chart) {
-  return "# What is left out, and what that saves\n\nWritten by `" + command +
-         "`.\n\nEvery skip has a counter in the run's JSON and report, and a switch for tests. "
-         "With "
-         "one skip off the integers\nare the same and the work rises by what its counter says "
-         "(`tests/skipping_test.cpp`). One skip may change light:\nbounded contribution, off "
-         "unless "
-         "asked for (`urad solve --bound`), which loses at most its bound of a row.\n\n" +
-         fmt::format(
-             "Rows are those of the general network with {} rays for each pair that a "
-             "blocker may stand between.\n\n![what becomes of all pairs]({})\n\n",
-             kSkipRays, chart) +
-         sweep_table(reports) +
-         "\n## Instructions\n\nCounted on an emulated Cortex-M0 over six rows spread evenly over "
-         "each scene: times the instructions\nwith all skips on. A shot is a row and the solver's "
-         "part; shots to 1 % rms are those of overshooting with\nambient term, below.\n\n" +
-         instruction_table(reports) +
-         "\n## Early answers\n\nShots until what is shown is within so much (relative rms) of the "
-         "converged light of the same factors,\nlargest unshot power first. The last column: of "
-         "the "
-         "shots that overshooting with ambient term takes to 1 %.\n\n" +
-         early_table(reports);
+  return fmt::format(
+      R"(# What is left out, and what that saves
+
+Written by `{}`.
+
+Every skip has a counter in the run's JSON and report, and a switch for tests. With one skip off the integers are the same
+and the work rises by what its counter says (`tests/skipping_test.cpp`). One skip may change light: bounded contribution, off
+unless asked for (`urad solve --bound`), which loses at most its bound of a row.
+
+Rows are those of the general network with {} rays for each pair that a blocker may stand between.
+
+![what becomes of all pairs]({})
+
+{}
+## Instructions
+
+Counted on an emulated Cortex-M0 over six rows spread evenly over each scene: times the instructions with all skips on. A
+shot is a row and the solver's part; shots to 1 % rms are those of overshooting with ambient term, below. Rays by worth: half
+the rays for pairs with a quarter of the factor, from 1/64 down.
+
+{}
+## Early answers
+
+Shots until what is shown is within so much (relative rms) of the converged light of the same factors, largest unshot power
+first. The last column: of the shots that overshooting with ambient term takes to 1 %.
+
+{})",
+      command, kSkipRays, chart, sweep_table(reports), instruction_table(reports),
+      early_table(reports));
 }
 
 }  // namespace host

@@ -10,6 +10,7 @@
 #include "solve/fixed_solve.hpp"
 #include "solve/relight.hpp"
 #include "solve/repair.hpp"
+#include "solve/scene_solver.hpp"
 #include "urad/radiosity.hpp"
 
 namespace host {
@@ -78,6 +79,15 @@ SkipReport skip_report(const std::string& name, const NetChoice& nets, const std
   report.by_pairs = sweep("net", {.rays = kSkipRays});
   report.bounded = sweep("net", {.rays = kSkipRays, .bound = kSkipBound});
   report.by_hybrid = sweep("hybrid:64", {.rays = kSkipRays});
+  SceneSolver solver(scene, threads, true, 256);
+  const auto error = [&](const EngineOptions& options) {
+    solver.use(options);
+    SolveGoal goal;
+    goal.error = 0.001;
+    return solver.run(parse_method("net"), nets, goal).rms;
+  };
+  report.error_fixed = error({.rays = kManyRays});
+  report.error_worth = error({.rays = kManyRays, .ray_error = kSkipBound});
   const EngineRows rows = repaired_rows(scene, nets, threads);
   for (const bool overshoot : {false, true}) {
     for (const bool ambient : {false, true})

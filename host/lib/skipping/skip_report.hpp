@@ -26,13 +26,15 @@ struct SkipReport {
   urad_counters bounded{};    ///< the same with bounded contribution
   urad_counters by_hybrid{};  ///< one sweep of hybrid:64
   std::vector<EarlyAnswer> early;
-  /// Mean instructions of a row by "on", "same", ..., "all", "bounded", and of a shot's solver by
+  double error_fixed = 0, error_worth = 0;  ///< rms of B, 64 rays a pair and 64 by worth
+  /// Mean instructions of a row by "on", "same", ..., "all", "bounded", "all_64", "worth_64", and of a shot's solver by
   /// "solver_on", "solver_all"; empty: not counted.
   std::map<std::string, double> instructions;
 };
 
 inline constexpr int kSkipRays = 16;            ///< as in firmware_style/ports/skips_main.cpp
-inline constexpr double kSkipBound = 1.0 / 64;  ///< the same
+inline constexpr double kSkipBound = 1.0 / 64;  ///< the same; also where rays by worth get fewer
+inline constexpr int kManyRays = 64;
 
 /// Sweeps and solves. `counted`: JSON of bench/icount with PROGRAM=skips, or empty. Throws Error
 /// when that file is not of the form.
