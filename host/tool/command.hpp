@@ -14,6 +14,8 @@ struct Common {
 
 /// The networks that travel inside the program, by the name of their header.
 const urad_net* shipped_net(const std::string& name);
+/// Those of the report, by the name of their header without "legacy_".
+const urad_legacy_net* shipped_legacy_net(const std::string& name);
 
 void add_formfactor(CLI::App& app, const Common& common);
 void add_solve(CLI::App& app, const Common& common);

@@ -43,8 +43,7 @@ void add_formfactor(CLI::App& app, const Common& common) {
           "--method", options->methods,
           "M[,M...]: reference, closed-form, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, "
           "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], auto[:ERROR], "
-          "hemicube:R; with "
-          "--scene also hybrid[:R], rays:N")
+          "hemicube:R, legacy:NAME; with --scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
   sources->add_option("--in", options->in, "CSV with columns id, p, q (\"-\": standard input)");

@@ -3,7 +3,9 @@
 #include <memory>
 #include <string>
 
+#include "base/file.hpp"
 #include "command.hpp"
+#include "legacy/legacy_json.hpp"
 #include "network/net_json.hpp"
 
 namespace tool {
@@ -12,9 +14,15 @@ namespace tool {
 /// host::Error.
 class Nets {
  public:
-  explicit Nets(const std::string& path) : choice_{shipped_net} {
+  explicit Nets(const std::string& path) : choice_{shipped_net, nullptr, shipped_legacy_net} {
     if (path.empty()) return;
-    file_ = std::make_unique<host::NetFile>(host::read_net(path));
+    const std::string text = host::read_file(path);
+    if (host::is_legacy_json(text)) {
+      legacy_ = std::make_unique<host::LegacyFixed>(host::legacy_from_json(text, path).fixed);
+      choice_.legacy_file = &legacy_->pod();
+      return;
+    }
+    file_ = std::make_unique<host::NetFile>(host::net_from_json(text, path));
     choice_.file = &file_->quantised(16).pod();
   }
   const host::NetChoice& choice() const { return choice_; }
@@ -22,6 +30,7 @@ class Nets {
 
  private:
   std::unique_ptr<host::NetFile> file_;
+  std::unique_ptr<host::LegacyFixed> legacy_;
   host::NetChoice choice_;
 };
 

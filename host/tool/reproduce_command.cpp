@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "command.hpp"
-#include "legacy/reproduce.hpp"
+#include "legacy/experiments.hpp"
 
 namespace tool {
 
@@ -49,8 +49,8 @@ void run(const Options& options, const Common& common) {
   std::error_code failure;
   std::filesystem::create_directories(options.out, failure);
   if (failure) throw host::Error(options.out + ": " + failure.message());
-  const auto asked = [&](const char* what) {
-    return options.what == "all" || options.what == what;
+  const auto asked = [&](const std::string& what) {
+    return options.what == what || (options.what == "all" && what != "experiments");
   };
   const auto show = [&](const std::vector<host::ResultTable>& tables) {
     for (const host::ResultTable& table : tables) {
@@ -73,6 +73,21 @@ void run(const Options& options, const Common& common) {
     if (asked("figure4.3")) show(host::reproduce_figure(request, cube));
     if (asked("section2.9")) show(host::reproduce_operations(request, cube));
   }
+  if (asked("experiments")) {
+    const host::ExperimentRequest experiments{request, {shipped_net, nullptr, shipped_legacy_net}};
+    const host::CubeExperiment cube = host::cube_experiment(request);
+    const auto add = [&](host::ResultTable table) {
+      if (!request.shortened.empty()) table.notes.push_back(request.shortened);
+      show({table});
+    };
+    add(host::experiment_orders(experiments, cube));
+    add(host::experiment_normals(experiments, cube));
+    add(host::experiment_sizes(experiments, cube));
+    add(host::experiment_sampling(experiments, cube));
+    add(host::experiment_visibility(experiments));
+    add(host::experiment_spread(experiments, cube));
+    add(host::experiment_years(experiments, cube));
+  }
 }
 
 }  // namespace
@@ -84,11 +99,13 @@ void add_reproduce(CLI::App& app, const Common& common) {
       "The 1996 report again, its numbers beside ours; a run that was interrupted goes on where it "
       "was");
   command
-      ->add_option("WHAT", options->what,
-                   "table3.1, table3.2, table4.1, figure4.3, section2.9, all")
+      ->add_option(
+          "WHAT", options->what,
+          "table3.1, table3.2, table4.1, figure4.3, section2.9, all; experiments: the report's "
+          "open questions")
       ->required()
       ->check(CLI::IsMember(std::set<std::string>{"table3.1", "table3.2", "table4.1", "figure4.3",
-                                                  "section2.9", "all"}));
+                                                  "section2.9", "experiments", "all"}));
   command
       ->add_option("--epochs", options->epochs,
                    fmt::format("Epochs of every training; default {}, the report's", kEpochs))

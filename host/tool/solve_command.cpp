@@ -121,7 +121,7 @@ void add_solve(CLI::App& app, const Common& common) {
   command
       ->add_option("--method", options->method,
                    "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, table, hemicube:R, "
-                   "hybrid[:R], or a "
+                   "hybrid[:R], legacy:NAME, or a "
                    "pair method in double")
       ->required();
   command->add_option("--net", options->net, "JSON of the network for net, auto and hybrid");

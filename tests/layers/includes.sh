@@ -18,5 +18,5 @@ own=$(cd firmware_style/src && printf '%s|' ./*.hpp | sed 's#\./##g')
 only "\"(${own}urad/[a-z0-9_]+\.hp?p?)\"|<std(int|def)\.h>" "The engine includes only itself, <stdint.h> and <stddef.h>" \
   firmware_style/include firmware_style/src
 only '<|"[^w]|"w[^e]' "The host library makes and runs networks; it does not include shipped ones" host/lib
-only '"urad/(net|scene)\.h"|<stdint\.h>' "Shipped headers include only urad/net.h and urad/scene.h" weights
+only '"urad/(net|legacy_net|scene)\.h"|<stdint\.h>' "Shipped headers include only urad/net.h, urad/legacy_net.h and urad/scene.h" weights
 exit "$failed"

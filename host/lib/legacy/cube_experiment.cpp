@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "base/parallel.hpp"
 #include "legacy/reproduce.hpp"
@@ -25,6 +28,20 @@ bool see_each_other(const Scene& scene, std::size_t i, std::size_t j) {
          can_face(scene.patches[i], scene.patches[j]);
 }
 
+template <class Run>
+Eigen::MatrixXd factors_of(const Scene& scene, int threads, Run&& run) {
+  const auto n = Eigen::Index(scene.patches.size());
+  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(n, n);
+  parallel_for(scene.patches.size(), threads, [&](std::size_t i) {
+    for (std::size_t j = 0; j < scene.patches.size(); ++j) {
+      if (!see_each_other(scene, i, j)) continue;
+      f(Eigen::Index(i), Eigen::Index(j)) =
+          run(legacy_input(scene.patches[i].polygon, scene.patches[j].polygon));
+    }
+  });
+  return f;
+}
+
 /// What the analytic library was asked for (Figure 4.1): pairs whose faces see each other.
 std::vector<LegacySample> samples_of(const CubeExperiment& cube, LegacyScaling scaling) {
   std::vector<LegacySample> samples;
@@ -38,6 +55,23 @@ std::vector<LegacySample> samples_of(const CubeExperiment& cube, LegacyScaling s
     }
   }
   return samples;
+}
+
+/// Of a net's integers, over all 86,436 pairs.
+LegacyErrors measured(const CubeExperiment& cube, const LegacyFixed& net) {
+  const Eigen::MatrixXd f =
+      factors_of(cube.scene, 1, [&](const LegacyInput& input) { return net.form_factor(input); });
+  const Eigen::MatrixXd off = f - cube.exact;
+  std::vector<double> relative;
+  for (Eigen::Index k = 0; k < off.size(); ++k)
+    if (cube.exact.data()[k] > 0)
+      relative.push_back(std::fabs(off.data()[k]) / cube.exact.data()[k]);
+  const auto rank = std::ptrdiff_t(0.99 * double(relative.size() - 1));
+  std::nth_element(relative.begin(), relative.begin() + rank, relative.end());
+  const Eigen::VectorXd rows = off.rowwise().sum().cwiseAbs();
+  const double bias = off.mean();
+  return {std::sqrt((off.array() - bias).square().mean()), bias, relative[std::size_t(rank)],
+          rows.mean(), rows.maxCoeff()};
 }
 
 }  // namespace
@@ -65,6 +99,7 @@ CubeExperiment cube_experiment(const ReproduceRequest& request, int hidden) {
     job.settings.epochs = request.epochs;
     job.settings.seed = request.seed;
     job.data = scaling == LegacyScaling::linear ? &linear : &log;
+    job.measure = [&cube](const LegacyFixed& net) { return measured(cube, net); };
     jobs.push_back(std::move(job));
   };
   for (const int units : {50, 30, 15, 5}) add(LegacyScaling::linear, units);
@@ -74,16 +109,8 @@ CubeExperiment cube_experiment(const ReproduceRequest& request, int hidden) {
 }
 
 Eigen::MatrixXd legacy_factors(const Scene& scene, const LegacyNet& net, int threads) {
-  const auto n = Eigen::Index(scene.patches.size());
-  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(n, n);
-  parallel_for(scene.patches.size(), threads, [&](std::size_t i) {
-    for (std::size_t j = 0; j < scene.patches.size(); ++j) {
-      if (!see_each_other(scene, i, j)) continue;
-      f(Eigen::Index(i), Eigen::Index(j)) =
-          net.form_factor(legacy_input(scene.patches[i].polygon, scene.patches[j].polygon));
-    }
-  });
-  return f;
+  return factors_of(scene, threads,
+                    [&](const LegacyInput& input) { return net.form_factor(input); });
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {

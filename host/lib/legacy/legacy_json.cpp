@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -22,6 +23,38 @@ Json net_json(const LegacyNet& net) {
           {"hidden_bias", net.hidden_bias},
           {"output_weight", net.output_weight},
           {"output_bias", net.output_bias}};
+}
+
+Json fixed_json(const LegacyTables& t) {
+  return {{"hidden_weight", t.hidden_weight}, {"hidden_shift", t.hidden_shift},
+          {"hidden_bias", t.hidden_bias},     {"output_weight", t.output_weight},
+          {"output_shift", t.output_shift},   {"output_bias", t.output_bias}};
+}
+
+template <class Int>
+std::vector<Int> integers(const Json& json) {
+  std::vector<Int> values;
+  for (const Json& item : json) {
+    const auto value = item.get<std::int64_t>();
+    if (!item.is_number_integer() || !std::in_range<Int>(value))
+      throw Error(fmt::format("has {} where a smaller whole number belongs", item.dump()));
+    values.push_back(Int(value));
+  }
+  return values;
+}
+
+LegacyTables tables_from(const Json& json, const LegacyNet& net) {
+  LegacyTables t;
+  t.hidden = net.hidden;
+  t.scaling = net.scaling;
+  t.hidden_weight = integers<std::int16_t>(json.at("hidden_weight"));
+  t.hidden_shift = integers<std::uint8_t>(json.at("hidden_shift"));
+  t.hidden_bias = integers<std::int32_t>(json.at("hidden_bias"));
+  t.output_weight = integers<std::int16_t>(json.at("output_weight"));
+  t.output_shift = integers<std::uint8_t>(Json::array({json.at("output_shift")}))[0];
+  t.output_bias = integers<std::int32_t>(Json::array({json.at("output_bias")}))[0];
+  (void)LegacyFixed(t);  // sizes and sums
+  return t;
 }
 
 std::vector<float> floats(const Json& json, std::size_t count) {
@@ -59,7 +92,15 @@ std::string to_json(const LegacyNetFile& file) {
               {"training_error", file.training_error},
               {"validation_error", file.validation_error},
               {"test_error", file.test_error},
-              {"net", net_json(file.net)}}
+              {"net", net_json(file.net)},
+              {"fixed", fixed_json(file.fixed)},
+              {"rounding", {{"output", file.rounding.output}, {"factor", file.rounding.factor}}},
+              {"errors",
+               {{"std", file.errors.std},
+                {"bias", file.errors.bias},
+                {"p99", file.errors.p99},
+                {"row_mean", file.errors.row_mean},
+                {"row_worst", file.errors.row_worst}}}}
              .dump(1) +
          "\n";
 }
@@ -85,6 +126,12 @@ LegacyNetFile legacy_from_json(const std::string& text, const std::string& where
     file.validation_error = json.at("validation_error").get<double>();
     file.test_error = json.at("test_error").get<double>();
     file.net = net_from(json.at("net"));
+    file.fixed = tables_from(json.at("fixed"), file.net);
+    const Json &rounding = json.at("rounding"), &errors = json.at("errors");
+    file.rounding = {rounding.at("output").get<double>(), rounding.at("factor").get<double>()};
+    file.errors = {errors.at("std").get<double>(), errors.at("bias").get<double>(),
+                   errors.at("p99").get<double>(), errors.at("row_mean").get<double>(),
+                   errors.at("row_worst").get<double>()};
     return file;
   } catch (const Error& error) {
     throw Error(fmt::format("{} {}", where, error.what()));

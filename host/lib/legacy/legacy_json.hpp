@@ -4,8 +4,15 @@
 #include <string>
 
 #include "legacy/backprop.hpp"
+#include "legacy/legacy_fixed.hpp"
 
 namespace host {
+
+/// Errors of F by the integers, on what the net was trained on, against the reference.
+struct LegacyErrors {
+  double std = 0, bias = 0, p99 = 0;   ///< p99: relative
+  double row_mean = 0, row_worst = 0;  ///< |sum of a row - 1|; 0 where there are no rows
+};
 
 struct LegacyNetFile {
   std::string command;  ///< that trained it
@@ -14,6 +21,9 @@ struct LegacyNetFile {
   int epochs = 0, best_epoch = 0;
   double training_error = 0, validation_error = 0, test_error = 0;  ///< mean squares, scaled
   LegacyNet net;
+  LegacyTables fixed;       ///< net, rounded
+  LegacyRounding rounding;  ///< what that changed on the training pairs
+  LegacyErrors errors;
 };
 
 /// Floats survive exactly.

@@ -58,6 +58,12 @@ LegacyNetFile train_one(const LegacyJob& job, const std::string& path, Progress*
   file.training_error = legacy_error(file.net, job.data->training);
   file.validation_error = legacy_error(file.net, job.data->validation);
   file.test_error = legacy_error(file.net, job.data->test);
+  file.fixed = round_legacy(file.net);
+  const LegacyFixed fixed(file.fixed);
+  std::vector<LegacyInput> inputs;
+  for (const LegacySample& sample : job.data->training) inputs.push_back(sample.input);
+  file.rounding = legacy_rounding(file.net, fixed, inputs);
+  if (job.measure) file.errors = job.measure(fixed);
   write_file_atomically(path, to_json(file));
   fs::remove(partial);
   return file;

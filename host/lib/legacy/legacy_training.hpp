@@ -1,5 +1,6 @@
 // Several of the report's networks at once, each on a core, with files to go on from.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct LegacyJob {
   std::string subject;
   BackpropSettings settings;
   const LegacySplit* data = nullptr;
+  std::function<LegacyErrors(const LegacyFixed&)> measure;  ///< of the integers; may be empty
 };
 
 /// Trains what `folder` (made if missing) does not hold yet: NAME.json when done, NAME.json.partial

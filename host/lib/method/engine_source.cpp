@@ -15,6 +15,7 @@
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/lambert.hpp"
+#include "urad/legacy.hpp"
 #include "urad/pose_table.hpp"
 #include "urad/visibility.hpp"
 
@@ -24,8 +25,9 @@ namespace {
 
 constexpr int kDefaultHemicube = 64;
 
-constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert", "net",
-                                       "auto",         "hemicube",     "hybrid",       "table"};
+constexpr std::array kEngineMethods = {"fixed-kernel", "fixed-moment", "fixed-lambert",
+                                       "net",          "auto",         "hemicube",
+                                       "hybrid",       "table",        "legacy"};
 
 void add(urad_counters* sum, const urad_counters& part) {
   auto* to = reinterpret_cast<std::uint32_t*>(sum);
@@ -73,6 +75,8 @@ struct EngineSource::State {
   HemicubeHolder hemicube;
   urad::HybridSource hybrid{};
   urad::PoseSource poses{};
+  urad::LegacySource legacy{};
+  std::vector<std::int32_t> legacy_memory;
   urad_source source{};
   std::size_t ram = 0;
 
@@ -86,7 +90,8 @@ struct EngineSource::State {
   }
 
   void use_poses(const urad_pose_table* table) {
-    if (!table) throw UsageError("--method table: only scenes have a pose table, free pairs do not");
+    if (!table)
+      throw UsageError("--method table: only scenes have a pose table, free pairs do not");
     poses.scene = scene, poses.table = table, poses.counters = &counters;
     source = {urad::pose_fill, &poses};
     ram = sizeof poses;
@@ -117,6 +122,16 @@ struct EngineSource::State {
     hybrid.skips_off = options.skips;
     source = {urad::hybrid_fill, &hybrid};
     ram += sizeof hybrid;
+  }
+
+  void use_legacy(const urad_legacy_net& net, const EngineOptions& options) {
+    const std::size_t bytes = urad::legacy_bytes(net.hidden);
+    legacy_memory.resize(bytes / sizeof(std::int32_t));
+    if (urad::legacy_init(&legacy, scene, &net, std::uint16_t(options.rays), &counters,
+                          legacy_memory.data(), bytes) != urad::Status::ok)
+      throw Error("legacy: the report's networks read quads only; a scene of quads would do");
+    source = {urad::legacy_fill, &legacy};
+    ram = sizeof legacy + bytes;
   }
 };
 
@@ -156,6 +171,8 @@ EngineSource::EngineSource(const FixedScene& scene, const MethodSpec& spec, cons
   } else if (spec.name == "table") {
     spec.expect_no_argument();
     state_->use_poses(options.poses);
+  } else if (spec.name == "legacy") {
+    state_->use_legacy(nets.find_legacy(spec.argument), options);
   } else {
     throw UsageError(fmt::format("--method {}: not a method of the engine; those are {}",
                                  spec.text(), fmt::join(kEngineMethods, ", ")));

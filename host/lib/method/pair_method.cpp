@@ -13,7 +13,9 @@
 #include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
 #include "geometry/order.hpp"
+#include "legacy/legacy_fixed.hpp"
 #include "method/engine_source.hpp"
+#include "urad/legacy.hpp"
 
 namespace host {
 
@@ -84,6 +86,26 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
   return {run, knows_error};
 }
 
+/// A network of the report, in the engine's integers, with the coordinates as they are: moving a
+/// pair changes what it says.
+FreePairMethod legacy_pairs(const urad_legacy_net& net) {
+  const auto run = [&net](const Polygon& p, const Polygon& q) {
+    for (const Polygon* polygon : {&p, &q}) {
+      if (polygon->outer.size() != 4 || !polygon->holes.empty())
+        return PairResult{{}, "unsupported_not_a_quad"};
+      for (const Vec3& x : polygon->outer)
+        if (glm::any(glm::lessThan(x, Vec3(0))) || glm::any(glm::greaterThan(x, Vec3(1))))
+          return PairResult{{}, "unsupported_outside_unit_cube"};
+    }
+    const Moments a = moments(p), b = moments(q);
+    const Vec3 r = b.centroid - a.centroid;
+    if (glm::dot(a.normal, r) <= 0 || glm::dot(b.normal, r) >= 0) return PairResult{};
+    const std::uint16_t y_uq15 = legacy_output_uq15(net, legacy_input(p, q));
+    return PairResult{{urad::legacy_form_factor_uq32(net, y_uq15) / 4294967296.0}};
+  };
+  return {run, false};
+}
+
 using Maker = std::function<FreePairMethod(const MethodSpec&)>;
 
 const std::map<std::string, Maker>& host_methods() {
@@ -133,6 +155,7 @@ const std::map<std::string, Maker>& host_methods() {
 }  // namespace
 
 FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
+  if (spec.name == "legacy") return legacy_pairs(nets.find_legacy(spec.argument));
   if (is_engine_method(spec) && spec.name != "hybrid") return in_engine(spec, nets);
   const auto maker = host_methods().find(spec.name);
   if (maker == host_methods().end()) {
@@ -140,7 +163,7 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
         fmt::format("--method {}: unknown; known are reference, closed-form, lambert:N, "
                     "gauss:N, monte-carlo:SAMPLES, kernel, "
                     "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], "
-                    "auto[:ERROR], hemicube:R",
+                    "auto[:ERROR], hemicube:R, legacy:NAME",
                     spec.text()));
   }
   return maker->second(spec);

@@ -6,55 +6,13 @@
 #include <map>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "network/c_tables.hpp"
 
 namespace host {
 
 namespace {
 
 constexpr const char* kManifestHeader = "name,command,seed,digest,std,p99,row_worst,bytes";
-
-void check_name(const std::string& name) {
-  const auto letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-  };
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  const bool good =
-      !name.empty() && letter(name[0]) &&
-      std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
-  if (!good)
-    throw Error(fmt::format(
-        "\"{}\" cannot name a network in C: use letters, digits and underscores, no digit first",
-        name));
-}
-
-// Inside /* */: what a file says of itself must not end the comment.
-std::string comment(std::string text) {
-  for (std::size_t at = text.find("*/"); at != std::string::npos; at = text.find("*/"))
-    text.replace(at, 2, "* /");
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return text;
-}
-
-// Values in lines of at most 100 columns.
-template <class Values>
-std::string list(const Values& values) {
-  std::string text, line = "   ";
-  for (const auto& value : values) {
-    const std::string item = fmt::format(" {},", value);
-    if (line.size() + item.size() > 100) text += line + "\n", line = "   ";
-    line += item;
-  }
-  return text + line + "\n";
-}
-
-template <class Values>
-std::string table(const char* type, const std::string& symbol, const char* field,
-                  const Values& values) {
-  return fmt::format("static const {} {}_{}[{}] = {{\n{}}};\n", type, symbol, field, values.size(),
-                     list(values));
-}
 
 std::string braces(const urad_rescale& r) {
   return fmt::format("{{{}, {}}}", r.multiplier, r.shift);
@@ -71,7 +29,7 @@ std::string banner(const NetFile& file, const std::string& name, int bits,
       " *   trained   {2}\n"
       " *   split     {3}\n"
       " *   digest    sha256 {4} (of the json)\n",
-      name, bits, comment(file.command), comment(file.split), digest);
+      name, bits, c_comment(file.command), c_comment(file.split), digest);
   if (error)
     text += fmt::format(
         " *   error     {}\n *             (this net's integers, against the reference)\n",
@@ -94,34 +52,27 @@ std::string banner(const NetFile& file, const std::string& name, int bits,
 std::string net_name(const std::string& header_path) {
   std::string name = header_path.substr(header_path.find_last_of('/') + 1);
   if (name.size() > 2 && name.ends_with(".h")) name.resize(name.size() - 2);
-  check_name(name);
+  check_c_name(name);
   return name;
 }
 
 std::string net_to_c(const NetFile& file, const std::string& name, int bits,
                      const std::string& digest) {
-  check_name(name);
+  check_c_name(name);
   const QuantisedNet& net = file.quantised(bits);
   const NetTables& t = net.tables();
   const urad_net& pod = net.pod();
   const std::string symbol = "urad_" + name;
-  std::string guard = "URAD_WEIGHTS_" + name + "_H";
-  std::transform(guard.begin(), guard.end(), guard.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; });
   std::vector<std::string> rescales;
   for (const urad_rescale& r : t.hidden_rescale) rescales.push_back(braces(r));
 
   std::string text = banner(file, name, bits, digest);
-  text += fmt::format(
-      "#ifndef {0}\n#define {0}\n#include \"urad/net.h\"\n"
-      "#if URAD_NET_ABI != {1}\n#error \"{2}.h was exported for net ABI {1}: export it "
-      "again\"\n#endif\n\n",
-      guard, pod.abi, name);
-  text += table(bits == 8 ? "int8_t" : "int16_t", symbol, "hidden_weight", t.hidden_weight);
-  text += table("int32_t", symbol, "hidden_bias", t.hidden_bias);
-  text += table("urad_rescale", symbol, "hidden_rescale", rescales);
-  text += table("int16_t", symbol, "output_weight", t.output_weight);
-  text += table("int16_t", symbol, "skip_weight", t.skip_weight);
+  text += c_guard(name, "urad/net.h", "URAD_NET_ABI", pod.abi);
+  text += c_table(bits == 8 ? "int8_t" : "int16_t", symbol, "hidden_weight", t.hidden_weight);
+  text += c_table("int32_t", symbol, "hidden_bias", t.hidden_bias);
+  text += c_table("urad_rescale", symbol, "hidden_rescale", rescales);
+  text += c_table("int16_t", symbol, "output_weight", t.output_weight);
+  text += c_table("int16_t", symbol, "skip_weight", t.skip_weight);
   text += fmt::format(
       "static const urad_net {0} = {{\n"
       "    /* abi */ {1}, /* flags */ {2}, /* inputs */ {3}, /* hidden */ {4},\n"
@@ -135,23 +86,28 @@ std::string net_to_c(const NetFile& file, const std::string& name, int bits,
   return text;
 }
 
-std::string update_manifest(const std::string& old, const NetFile& file, const std::string& name,
-                            int bits, const std::string& digest) {
+std::string update_manifest(const std::string& old, const std::string& name,
+                            const std::string& line) {
   std::map<std::string, std::string> lines;
   std::istringstream stream(old);
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty() && line != kManifestHeader) lines[line.substr(0, line.find(','))] = line;
-  const ErrorRow* error = file.error(fmt::format("int{}", bits));
-  std::string command;
-  for (const char c : file.command) command += c == '"' ? std::string("\"\"") : std::string(1, c);
-  lines[name] = fmt::format("{},\"{}\",{},{},{},{},{},{}", name, command, file.seed, digest,
-                            error ? fmt::format("{:.3g}", error->std) : "",
-                            error ? fmt::format("{:.3g}", error->p99) : "",
-                            error && error->rows ? fmt::format("{:.3g}", error->rows->worst) : "",
-                            file.quantised(bits).flash_bytes());
+  for (std::string row; std::getline(stream, row);)
+    if (!row.empty() && row != kManifestHeader) lines[row.substr(0, row.find(','))] = row;
+  lines[name] = line;
   std::string text = std::string(kManifestHeader) + "\n";
-  for (const auto& [key, line] : lines) text += line + "\n";
+  for (const auto& [key, row] : lines) text += row + "\n";
   return text;
+}
+
+std::string update_manifest(const std::string& old, const NetFile& file, const std::string& name,
+                            int bits, const std::string& digest) {
+  const ErrorRow* error = file.error(fmt::format("int{}", bits));
+  return update_manifest(
+      old, name,
+      fmt::format("{},\"{}\",{},{},{},{},{},{}", name, quoted_csv(file.command), file.seed, digest,
+                  error ? fmt::format("{:.3g}", error->std) : "",
+                  error ? fmt::format("{:.3g}", error->p99) : "",
+                  error && error->rows ? fmt::format("{:.3g}", error->rows->worst) : "",
+                  file.quantised(bits).flash_bytes()));
 }
 
 }  // namespace host

@@ -18,6 +18,8 @@ std::string net_name(const std::string& header_path);
 
 /// MANIFEST.csv with the line of this net replaced or added, ordered by name. `old`: the file so
 /// far, or empty.
+std::string update_manifest(const std::string& old, const std::string& name,
+                            const std::string& line);
 std::string update_manifest(const std::string& old, const NetFile& file, const std::string& name,
                             int bits, const std::string& digest);
 

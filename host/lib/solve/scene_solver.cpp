@@ -145,8 +145,9 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   const Eigen::MatrixXd f = matrix(run.rows);
   run.factors = factor_errors(scene_, f, exact().form_factors);
   EngineRows repaired_rows = run.rows;
-  // A hemicube's rows sum to 1 by themselves, and so do those of exact factors.
-  if (scene_.closed && spec.name != "hemicube" && spec.name != "table") {
+  // A hemicube's rows sum to 1 by themselves, and so do those of exact factors; the report's networks
+  // are shown as they are.
+  if (scene_.closed && spec.name != "hemicube" && spec.name != "table" && spec.name != "legacy") {
     run.scale = symmetric_scale(scene_, f);
     fixed_.set_scale(run.scale);
     repaired_rows = is_engine_method(spec) ? engine_rows(fixed_, spec, nets, options_, threads_)
