@@ -16,6 +16,13 @@
 #include "weights/cornell.h"
 #include "weights/cube7.h"
 #include "weights/general.h"
+#include "weights/legacy_linear15.h"
+#include "weights/legacy_linear30.h"
+#include "weights/legacy_linear5.h"
+#include "weights/legacy_linear50.h"
+#include "weights/legacy_log15.h"
+#include "weights/legacy_log30.h"
+#include "weights/legacy_log5.h"
 
 namespace fixtures {
 
@@ -136,6 +143,16 @@ PairSet room_pairs() {
   return set;
 }
 
+const urad_legacy_net* shipped_legacy(const std::string& name) {
+  static const std::map<std::string, const urad_legacy_net*> nets = {
+      {"linear50", &urad_legacy_linear50}, {"linear30", &urad_legacy_linear30},
+      {"linear15", &urad_legacy_linear15}, {"linear5", &urad_legacy_linear5},
+      {"log30", &urad_legacy_log30},       {"log15", &urad_legacy_log15},
+      {"log5", &urad_legacy_log5}};
+  const auto found = nets.find(name);
+  return found == nets.end() ? nullptr : found->second;
+}
+
 const urad_net* shipped(const std::string& name) {
   static const std::map<std::string, const urad_net*> nets = {
       {"general", &urad_general}, {"cube7", &urad_cube7}, {"cornell", &urad_cornell}};
@@ -146,7 +163,7 @@ const urad_net* shipped(const std::string& name) {
 }  // namespace
 
 const host::NetChoice& nets() {
-  static const host::NetChoice choice{shipped, nullptr};
+  static const host::NetChoice choice{shipped, nullptr, shipped_legacy};
   return choice;
 }
 

@@ -17,7 +17,7 @@
 
 namespace fixtures {
 
-/// The shipped networks: "general", "cube7" and "cornell".
+/// The shipped networks: "general", "cube7" and "cornell", and the report's seven.
 const host::NetChoice& nets();
 
 /// One ordered pair, as the host's methods take it and as the engine does, with its factor by the

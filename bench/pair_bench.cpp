@@ -14,6 +14,7 @@
 #include "form_factor/kernel.hpp"
 #include "form_factor/lambert.hpp"
 #include "form_factor/reference.hpp"
+#include "method/engine_source.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 
@@ -154,6 +155,35 @@ void add_shared_hemicube(const std::string& method) {
   benchmark::RegisterBenchmark(("pair/cube/" + method).c_str(), row);
 }
 
+/// A network of the 1996 report on the cube it was trained on, whole rows at a time as a solver
+/// asks for them: what a shooter and a wall share is paid once.
+void add_legacy_rows(const std::string& name) {
+  const std::string method = "legacy:" + name;
+  const auto row = [=, known = std::make_shared<std::optional<Errors>>()](benchmark::State& state) {
+    const std::vector<Pair>& pairs = fixtures::pair_set("cube").pairs;
+    const host::EngineSource source(*pairs.front().scene, host::parse_method(method),
+                                    fixtures::nets(), {});
+    const std::uint16_t patches = pairs.front().scene->pod().patch_count;
+    std::vector<std::uint32_t> f_uq32(patches);
+    if (!*known) {
+      std::vector<std::vector<std::uint32_t>> rows(patches, f_uq32);
+      for (std::uint16_t i = 0; i < patches; ++i) source.row(i, rows[i].data());
+      std::vector<double> factors;
+      for (const Pair& pair : pairs) factors.push_back(rows[pair.i][pair.j] * 0x1p-32);
+      *known = fixtures::errors(pairs, factors);
+    }
+    const auto receivers = benchmark::IterationCount(pairs.size() / patches);
+    std::uint16_t shooter = 0;
+    while (state.KeepRunningBatch(receivers)) {
+      source.row(shooter, f_uq32.data());
+      benchmark::ClobberMemory();
+      if (++shooter == patches) shooter = 0;
+    }
+    fixtures::show(state, **known);
+  };
+  benchmark::RegisterBenchmark(("pair/cube/" + method).c_str(), row);
+}
+
 template <host::Estimate (*estimate)(const host::Polygon&, const host::Polygon&)>
 double in_double(const Pair& pair) {
   return estimate(*pair.p, *pair.q).f;
@@ -184,6 +214,9 @@ const bool added = [] {
     if (set == "cube") {
       add_shared_hemicube<32>("hemicube:32");
       add_shared_hemicube<64>("hemicube:64");
+      for (const char* name :
+           {"linear50", "linear30", "linear15", "linear5", "log30", "log15", "log5"})
+        add_legacy_rows(name);
     } else {
       add_row(set, "hemicube:32", "", Hemicube<32>());
       add_row(set, "hemicube:64", "", Hemicube<64>());

@@ -19,7 +19,7 @@ constexpr int kEpochs = 4000, kQuickEpochs = 40;
 constexpr double kQuickShare = 0.1;
 
 struct Options {
-  std::string what, out;
+  std::string what, out, document;
   int epochs = 0;
   std::uint64_t seed = 1;
   bool quick = false;
@@ -46,14 +46,17 @@ host::ReproduceRequest request_of(const Options& options, const Common& common) 
 
 void run(const Options& options, const Common& common) {
   const host::ReproduceRequest request = request_of(options, common);
+  const std::string document = options.document.empty() ? "" : host::read_file(options.document);
   std::error_code failure;
   std::filesystem::create_directories(options.out, failure);
   if (failure) throw host::Error(options.out + ": " + failure.message());
   const auto asked = [&](const std::string& what) {
     return options.what == what || (options.what == "all" && what != "experiments");
   };
+  std::vector<host::ResultTable> shown;
   const auto show = [&](const std::vector<host::ResultTable>& tables) {
     for (const host::ResultTable& table : tables) {
+      shown.push_back(table);
       const std::string path = options.out + "/" + table.file;
       host::write_file_atomically(path + ".csv", host::to_csv(table));
       host::write_file_atomically(path + ".md", host::to_markdown(table));
@@ -88,6 +91,9 @@ void run(const Options& options, const Common& common) {
     add(host::experiment_spread(experiments, cube));
     add(host::experiment_years(experiments, cube));
   }
+  if (!options.document.empty())
+    host::write_file_atomically(options.document,
+                                host::with_tables(document, shown, options.document));
 }
 
 }  // namespace
@@ -116,6 +122,8 @@ void add_reproduce(CLI::App& app, const Common& common) {
                     fmt::format("{} epochs and a tenth of the random samples", kQuickEpochs));
   command->add_option("-o,--out", options->out, "Folder for tables, pictures and networks")
       ->required();
+  command->add_option("--document", options->document,
+                      "Markdown whose tables between <!-- NAME --> and <!-- end --> are replaced");
   command->callback([options, &common] { run(*options, common); });
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "base/stopwatch.hpp"
 #include "form_factor/reference.hpp"
 #include "legacy/experiments.hpp"
 #include "legacy/statistics.hpp"
@@ -196,15 +196,13 @@ ResultTable experiment_sampling(const ExperimentRequest& request, const CubeExpe
   const auto add = [&](const std::string& name, int n, auto&& run) {
     std::array<std::vector<double>, 2> relative;
     std::vector<double> off;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch time;
     for (const Judged& pair : test) {
       const double f = run(pair);
       relative[pair.cube].push_back(std::fabs(f - pair.exact) / pair.exact);
       if (pair.cube) off.push_back(f - pair.exact);
     }
-    const double ns =
-        1e9 / double(test.size()) *
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double ns = 1e9 / double(test.size()) * time.seconds();
     const auto quantile = [&](bool of_cube, double part) {
       auto& values = relative[of_cube];
       std::sort(values.begin(), values.end());

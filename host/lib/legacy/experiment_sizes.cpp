@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "base/stopwatch.hpp"
 #include "legacy/adam.hpp"
 #include "legacy/experiments.hpp"
 #include "legacy/statistics.hpp"
@@ -99,10 +99,9 @@ ResultTable experiment_sizes(const ExperimentRequest& request, const CubeExperim
     settings.loss = trial.loss;
     settings.epochs = epochs;
     settings.seed = request.base.seed;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch time;
     const LegacyNet net = train_adam(splits[trial.scaling == LegacyScaling::log], settings);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = time.seconds();
     std::vector<std::string> row{std::to_string(trial.hidden), trial.name};
     for (auto& cell : figures(cube, legacy_factors(cube.scene, net, 1), held_out))
       row.push_back(std::move(cell));

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
 #include "base/file.hpp"
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
 #include "legacy/experiments.hpp"
 #include "legacy/random_quads.hpp"
 #include "legacy/statistics.hpp"
@@ -29,10 +29,9 @@ struct Figures {
 template <class Run>
 Figures figures(const std::vector<Pair>& pairs, Run&& run) {
   std::vector<double> off, relative;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch time;
   for (const Pair& pair : pairs) off.push_back(run(*pair.p, *pair.q) - pair.exact);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = time.seconds();
   for (std::size_t k = 0; k < pairs.size(); ++k)
     relative.push_back(std::fabs(off[k]) / pairs[k].exact);
   std::sort(relative.begin(), relative.end());

@@ -1,8 +1,7 @@
 // Section 2.9: what a set of form factors costs, counted.
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "base/stopwatch.hpp"
 #include "form_factor/reference.hpp"
 #include "legacy/centre_hemicube.hpp"
 #include "legacy/reproduce.hpp"
@@ -51,9 +50,9 @@ Operations network_pair(const LegacyNet& net, const LegacyInput& input, double* 
 
 template <class Run>
 double seconds(Run&& run) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch time;
   run();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return time.seconds();
 }
 
 std::string counts(std::int64_t flops, std::int64_t library, std::int64_t rays) {
@@ -75,12 +74,12 @@ std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
       {}};
   for (const int resolution : {8, 32, 64}) {
     HemicubeCount count;
-    const double time = seconds([&] { (void)centre_hemicube(scene, resolution, 1, &count); });
+    const double spent = seconds([&] { (void)centre_hemicube(scene, resolution, 1, &count); });
     const std::int64_t c = hemicube_cells(resolution);
     table.rows.push_back({fmt::format("hemicube, {} cells a side", resolution),
                           "n (c rays + c sums): " + counts(n * c, 0, n * c),
                           counts(std::int64_t(count.sums), 0, std::int64_t(count.rays)),
-                          short_number(time)});
+                          short_number(spent)});
   }
   std::vector<Blocker> polygons;
   for (const ScenePatch& patch : scene.patches) polygons.push_back({patch.polygon, patch.surface});
@@ -98,7 +97,7 @@ std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
         all.flops += pair.flops, all.library += pair.library, ++all.rays;
       }
     }
-    const double time = seconds([&] {
+    const double spent = seconds([&] {
       (void)legacy_factors(scene, net, 1);
       for (const ScenePatch& a : scene.patches)
         for (const ScenePatch& b : scene.patches)
@@ -109,7 +108,7 @@ std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
     table.rows.push_back({fmt::format("network {}", net.name()),
                           "n² (24·2 h + 2 h flops, h calls, 1 ray): " +
                               counts(pairs * (h * kLegacyInputs * 2 + h * 2), pairs * h, pairs),
-                          counts(all.flops, all.library, all.rays), short_number(time)});
+                          counts(all.flops, all.library, all.rays), short_number(spent)});
   }
   const double analytic = seconds([&] {
     for (std::size_t i = 0; i < scene.patches.size(); ++i)
@@ -126,7 +125,7 @@ std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
       "addition after a run-length count, and cells whose ray meets nothing lit cost none. It "
       "counts n² pairs where Figure 4.1 leaves out those that do not face each other, and forgets "
       "the sigmoid of the output unit: h + 1 calls. Time: double precision, plain loops, rays by "
-      "Embree.",
+      "Embree; seconds of the processor.",
       "With the sums of the first layer kept per patch (P_i + Q_j, as the engine does), the 24·2 h "
       "flops of a pair become h."};
   if (!request.shortened.empty()) table.notes.push_back(request.shortened);

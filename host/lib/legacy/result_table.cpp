@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/csv.hpp"
+#include "base/error.hpp"
 
 namespace host {
 
@@ -68,6 +69,23 @@ std::string to_markdown(const ResultTable& table) {
                       fmt::join(std::vector<std::string>(table.header.size(), " --- |"), ""));
   for (const auto& row : table.rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
   for (const std::string& note : table.notes) text += "\n" + note + "\n";
+  return text;
+}
+
+std::string with_tables(const std::string& document, const std::vector<ResultTable>& tables,
+                        const std::string& where) {
+  constexpr std::string_view kEnd = "<!-- end -->";
+  std::string text = document;
+  for (const ResultTable& table : tables) {
+    const std::string mark = fmt::format("<!-- {} -->\n", table.file);
+    const std::size_t at = text.find(mark);
+    if (at == std::string::npos) continue;
+    const std::size_t from = at + mark.size(), to = text.find(kEnd, from);
+    if (to == std::string::npos)
+      throw Error(fmt::format("{}: \"{}\" has no \"{}\" after it", where,
+                              mark.substr(0, mark.size() - 1), kEnd));
+    text.replace(from, to - from, to_markdown(table));
+  }
   return text;
 }
 

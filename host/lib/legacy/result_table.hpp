@@ -17,6 +17,11 @@ std::string to_text(const ResultTable& table);
 std::string to_csv(const ResultTable& table);
 std::string to_markdown(const ResultTable& table);
 
+/// The document with what stands between "<!-- FILE -->" and "<!-- end -->" replaced by the table
+/// of that name. `where` names the document in messages. Error for a mark without an end.
+std::string with_tables(const std::string& document, const std::vector<ResultTable>& tables,
+                        const std::string& where);
+
 /// Three significant digits: "0.0123", "4.1e-05".
 std::string short_number(double value);
 /// "ours (theirs)".
