@@ -141,6 +141,7 @@ TEST_CASE("a network file says what it is, and what is wrong with it") {
   host::BackpropSettings settings;
   settings.hidden = 5;
   file.net = host::backprop_start(settings).net;
+  file.fixed = host::round_legacy(file.net);
   file.command = "a command";
   const std::string text = host::to_json(file);
   CHECK(host::is_legacy_json(text));

@@ -96,6 +96,19 @@ TEST_CASE("Adam learns a product, and refuses what it has no loss for") {
   CHECK_THROWS_AS(host::train_adam({}, {}), host::Error);
 }
 
+TEST_CASE("larger networks: every size and loss has a row, measured where trained and held out") {
+  host::ExperimentRequest request = small();
+  request.base.share = 0.002;  // one pass
+  const host::ResultTable table = host::experiment_sizes(request, cube());
+  REQUIRE(table.rows.size() == 9);
+  for (const auto& row : table.rows) {
+    REQUIRE(row.size() == table.header.size());
+    CHECK(std::stod(row[2]) > 1e-3);  // std after one pass: nobody has learned the cube
+    CHECK(std::stod(row[2]) < 0.05);
+    CHECK(std::stod(row[5]) > 5);  // median where held out, per cent
+  }
+}
+
 TEST_CASE("sampled kernels: Gauss's points have the median, softening the near pairs") {
   const host::ResultTable table = host::experiment_sampling(small(), cube());
   CHECK(number(table, "2 x 2 Gauss", "rooms: median") < number(table, "1 point", "rooms: median"));

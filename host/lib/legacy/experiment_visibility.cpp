@@ -223,8 +223,9 @@ ResultTable experiment_visibility(const ExperimentRequest& request) {
       "both "
       "patches by a lattice and weighted by the kernel. The mask's time is that of one hemicube a "
       "pair; over a whole row it is shared by all receivers. In the Cornell box the centre of a "
-      "floor patch may lie under a block that its visible part faces: one ray is then worse than "
-      "none. Time: of the processor.",
+      "floor patch may lie under a block that its visible part faces: one ray then hides all of "
+      "it. "
+      "Time: of the processor.",
       count)};
   return table;
 }
