@@ -8,11 +8,11 @@ namespace host {
 
 // sizeof on a Cortex-M0; bench/plan/measure.sh has the chip say them, `urad_plan_fit check` compares.
 inline constexpr std::size_t kStateBytes = 240;    ///< urad_radiosity
-inline constexpr std::size_t kCountersBytes = 56;  ///< urad_counters
-inline constexpr std::size_t kPairSourceBytes = 24;
+inline constexpr std::size_t kCountersBytes = 92;  ///< urad_counters
+inline constexpr std::size_t kPairSourceBytes = 56;
 inline constexpr std::size_t kPoseSourceBytes = 20;
-inline constexpr std::size_t kHemicubeSourceBytes = 56;
-inline constexpr std::size_t kHybridSourceBytes = 20;
+inline constexpr std::size_t kHemicubeSourceBytes = 60;
+inline constexpr std::size_t kHybridSourceBytes = 24;
 
 /// Greatest vertex count of the scene's polygons and blockers, 4 at least.
 std::size_t most_vertices(const urad_scene& scene);
