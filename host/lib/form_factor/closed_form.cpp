@@ -8,6 +8,7 @@
 
 #include "form_factor/edge_pair_closed.hpp"
 #include "form_factor/facing.hpp"
+#include "geometry/order.hpp"
 
 namespace host {
 namespace {
@@ -110,7 +111,10 @@ double most_exchange(const Part& p, const Part& q) {
 
 }  // namespace
 
-ClosedForm closed_form(const Polygon& p, const Polygon& q) {
+ClosedForm closed_form(const Polygon& given_p, const Polygon& given_q) {
+  Polygon p = standard_order(given_p), q = standard_order(given_q);
+  const double area = moments(p).area;
+  if (written_before(q, p)) std::swap(p, q);
   const FacingPair pair = clip_to_front(p, q);
   if (pair.empty()) return {};
   const Part p_part(p, pair.p);
@@ -118,7 +122,6 @@ ClosedForm closed_form(const Polygon& p, const Polygon& q) {
   const double most = most_exchange(p_part, q_part);
   if (!(most > 0)) return {};
   const Frame frame(pair);
-  const double area = moments(p).area;
   const double per_area = frame.unit * (frame.unit / area);
   const double most_f = std::min(1.0, most / area);
   const double clipping = (p_part.rounding(q_part) + q_part.rounding(p_part)) / area;
