@@ -199,9 +199,11 @@ Exchange exchange(const Polygon& given_p, const Polygon& given_q) {
   const auto doubtful = [&] { return result.error > kDoubtful * result.value; };
   // Where sums over edges lose digits: the two long edges of a sliver cancel, and so do the edges
   // of a huge polygon as a tiny one sees them.
-  constexpr double kUneven = 1e4;
-  const bool weak = p.is_sliver() || q.is_sliver() || std::max(p.m.area, q.m.area) > kUneven * most;
-  if (!weak || !doubtful()) return in_bounds(result, most);
+  constexpr double kUneven = 1e4, kLost = 1e-6;
+  const bool sliver = p.is_sliver() || q.is_sliver();
+  const bool lost = std::max(p.m.area, q.m.area) > kUneven * most &&
+                    result.error > kLost * std::max(result.value, 0.0);
+  if (!(sliver || lost) || !doubtful()) return in_bounds(result, most);
   const double gap = distance(pair.p, pair.q);
   for (const auto second_opinion : {point_exchange, area_exchange}) {
     if (!doubtful()) break;

@@ -1,9 +1,8 @@
-#include <chrono>
-
 #include "base/error.hpp"
 #include "stress/attacks.hpp"
 #include "stress/file_targets.hpp"
 #include "stress/mutate.hpp"
+#include "stress/watch.hpp"
 
 namespace host {
 namespace {
@@ -12,7 +11,7 @@ constexpr double kMostSeconds = 10;
 
 /// What an altered file does to its parser: it reads it, or says in one line why not.
 void read_altered(const FileTarget& target, const std::string& text, Findings* findings) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = thread_seconds();
   bool one_line = true, ours = true;
   try {
     target.read(text);
@@ -22,10 +21,9 @@ void read_altered(const FileTarget& target, const std::string& text, Findings* f
     ours = false;
     findings->expect(std::string("no exception but Error: ") + error.what(), false);
   }
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   findings->expect("no exception but Error", ours);
   findings->expect("a message of one line", one_line);
-  findings->measure("seconds", time.count(), kMostSeconds);
+  findings->measure("seconds", thread_seconds() - start, kMostSeconds);
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 namespace host {
 namespace {
@@ -35,7 +37,14 @@ void on_signal(int number) {
   std::raise(number);
 }
 
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  return clock_gettime(clock, &now) == 0 ? double(now.tv_sec) + 1e-9 * double(now.tv_nsec) : 0;
+}
+
 }  // namespace
+
+double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
 CaseWatch::CaseWatch(const std::string& folder, double most_seconds, std::size_t threads)
     : folder_(folder.empty() ? "" : folder + "/crash.case"), slots_(threads) {
@@ -61,7 +70,7 @@ CaseWatch::~CaseWatch() {
 
 void CaseWatch::begin(std::size_t thread, const std::string& text) {
   const std::lock_guard<std::mutex> guard(lock_);
-  slots_[thread] = {&text, std::chrono::steady_clock::now()};
+  slots_[thread] = {&text, pthread_self(), thread_seconds()};
   t_case = &text;
 }
 
@@ -76,18 +85,22 @@ void CaseWatch::watch(double most_seconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const std::lock_guard<std::mutex> guard(lock_);
     if (stop_) return;
-    const auto now = std::chrono::steady_clock::now();
     for (const Slot& slot : slots_) {
-      if (!slot.text || std::chrono::duration<double>(now - slot.start).count() <= most_seconds)
-        continue;
-      const std::string path =
-          folder_.empty() ? "" : folder_.substr(0, folder_.size() - 10) + "hang.case";
-      if (!path.empty()) write_case(path.c_str(), *slot.text);
-      std::fprintf(stderr, "urad: stress: a case did not end within %.0f s%s%s\n", most_seconds,
-                   path.empty() ? "" : "; urad stress --replay ", path.c_str());
-      std::_Exit(1);
+      clockid_t clock{};
+      if (!slot.text || pthread_getcpuclockid(slot.thread, &clock) != 0) continue;
+      if (seconds_of(clock) - slot.start > most_seconds) report_hang(*slot.text, most_seconds);
     }
   }
+}
+
+void CaseWatch::report_hang(const std::string& text, double most_seconds) const {
+  constexpr std::size_t kName = std::string_view("crash.case").size();
+  const std::string path =
+      folder_.empty() ? "" : folder_.substr(0, folder_.size() - kName) + "hang.case";
+  if (!path.empty()) write_case(path.c_str(), text);
+  std::fprintf(stderr, "urad: stress: a case did not end within %.0f s%s%s\n", most_seconds,
+               path.empty() ? "" : "; urad stress --replay ", path.c_str());
+  std::_Exit(1);
 }
 
 }  // namespace host

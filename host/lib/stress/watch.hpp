@@ -1,6 +1,7 @@
 // The case that a thread is at, for the time when it does not come back.
 #pragma once
-#include <chrono>
+#include <pthread.h>
+
 #include <mutex>
 #include <string>
 #include <thread>
@@ -8,8 +9,12 @@
 
 namespace host {
 
+/// Processor time of this thread.
+double thread_seconds();
+
 /// While it lives, a signal that ends the program writes the case of its thread first, and a case
-/// that takes longer than `most_seconds` is written and ends the program with status 1. To
+/// that takes more than `most_seconds` of its thread's time (not the clock's: machines are shared) is
+/// written and ends the program with status 1. To
 /// `folder`/crash.case or hang.case; an empty folder: nothing is written.
 class CaseWatch {
  public:
@@ -25,9 +30,11 @@ class CaseWatch {
  private:
   struct Slot {
     const std::string* text = nullptr;
-    std::chrono::steady_clock::time_point start;
+    pthread_t thread{};
+    double start = 0;
   };
   void watch(double most_seconds);
+  void report_hang(const std::string& text, double most_seconds) const;
 
   std::string folder_;
   std::vector<Slot> slots_;
