@@ -251,7 +251,13 @@ TEST_CASE("exported tables compile as C99 and C++17 and hold the same integers")
       << sum << "u || urad_pose_table_check(&urad_cube7_poses, &urad_cube7_scene) != URAD_OK;\n}\n";
   std::filesystem::copy_file(folder / "main.c", folder / "main.cpp",
                              std::filesystem::copy_options::overwrite_existing);
+#ifdef __SANITIZE_ADDRESS__
+  const std::string as_the_archive = " -fsanitize=address,undefined";
+#else
+  const std::string as_the_archive;
+#endif
   const std::string flags =
+      as_the_archive +
       " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I" URAD_SOURCE_DIR
       "/firmware_style/include -o " +
       (folder / "main").string() + " " + folder.string();

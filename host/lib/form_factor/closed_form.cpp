@@ -113,7 +113,7 @@ double most_exchange(const Part& p, const Part& q) {
 
 ClosedForm closed_form(const Polygon& given_p, const Polygon& given_q) {
   Polygon p = standard_order(given_p), q = standard_order(given_q);
-  const double area = moments(p).area;
+  const double area = moments(p).area, other_area = moments(q).area;
   if (written_before(q, p)) std::swap(p, q);
   const FacingPair pair = clip_to_front(p, q);
   if (pair.empty()) return {};
@@ -129,9 +129,10 @@ ClosedForm closed_form(const Polygon& given_p, const Polygon& given_q) {
     return ClosedForm{std::clamp(per_area * g.value, 0.0, most_f),
                       std::min(per_area * g.error + clipping, most_f)};
   };
-  const ClosedForm result = factor(exchange<double>(pair, frame));
-  return result.error - clipping <= kWorthMore ? result
-                                               : factor(exchange<long double>(pair, frame));
+  // By the smaller of the two, so that both directions come from one exchange.
+  const double doubt = frame.unit * (frame.unit / std::min(area, other_area));
+  const Bounded<double> quick = exchange<double>(pair, frame);
+  return factor(doubt * quick.error <= kWorthMore ? quick : exchange<long double>(pair, frame));
 }
 
 }  // namespace host

@@ -42,6 +42,18 @@ double seconds_of(clockid_t clock) {
   return clock_gettime(clock, &now) == 0 ? double(now.tv_sec) + 1e-9 * double(now.tv_nsec) : 0;
 }
 
+// Sanitizers have handlers that say more.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kOwnHandlers = false;
+#else
+constexpr bool kOwnHandlers = true;
+#endif
+
+void handle_signals(void (*handler)(int)) {
+  if (!kOwnHandlers) return;
+  for (const int number : kSignals) std::signal(number, handler);
+}
+
 }  // namespace
 
 double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
@@ -49,10 +61,7 @@ double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 CaseWatch::CaseWatch(const std::string& folder, double most_seconds, std::size_t threads)
     : folder_(folder.empty() ? "" : folder + "/crash.case"), slots_(threads) {
   g_crash_path = folder_.empty() ? nullptr : folder_.c_str();
-  // Sanitizers have handlers that say more.
-#ifndef __SANITIZE_ADDRESS__
-  for (const int number : kSignals) std::signal(number, on_signal);
-#endif
+  handle_signals(on_signal);
   watcher_ = std::thread([this, most_seconds] { watch(most_seconds); });
 }
 
@@ -62,9 +71,7 @@ CaseWatch::~CaseWatch() {
     stop_ = true;
   }
   watcher_.join();
-#ifndef __SANITIZE_ADDRESS__
-  for (const int number : kSignals) std::signal(number, SIG_DFL);
-#endif
+  handle_signals(SIG_DFL);
   g_crash_path = nullptr;
 }
 
