@@ -15,7 +15,7 @@ namespace host {
 
 namespace {
 
-constexpr int kEpochs = 500;
+constexpr int kEpochs = 40;
 
 struct Trial {
   int hidden;
