@@ -91,7 +91,7 @@ TEST_CASE("bytes are those of the engine's functions and of the exporter") {
     const host::FixedScene fixed(scene);
     const urad_scene& pod = fixed.pod();
     const bool convex = scene.convex;
-    const unsigned flags = URAD_HEMICUBE_TURNED | (convex ? 0 : URAD_HEMICUBE_COVERAGE);
+    const unsigned flags = URAD_HEMICUBE_TURNED | unsigned(convex ? 0 : URAD_HEMICUBE_COVERAGE);
     for (const int rows : {convex ? 0 : 64, convex ? 0 : 8}) {
       CHECK(host::hemicube_ram(pod, 64, rows, !convex) - host::kHemicubeSourceBytes ==
             urad_hemicube_source_bytes(&pod, 64, std::uint16_t(rows), flags) -

@@ -7,6 +7,7 @@
 namespace bench {
 
 /// Relative rms of B against the exact solution when the estimate says `stop`.
-double chip_light_error(const host::Scene& scene, const host::MethodSpec& spec, const host::NetChoice& nets, double stop);
+double chip_light_error(const host::Scene& scene, const host::MethodSpec& spec,
+                        const host::NetChoice& nets, double stop);
 
 }  // namespace bench

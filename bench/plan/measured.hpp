@@ -84,8 +84,6 @@ struct Measured {
     for (std::size_t k = 0; k < sizeof counters / sizeof *to; ++k) label >> to[k];
     host::RowSetting setting;
     std::string method = name;
-    setting.looked = host::looked_pairs(fixed.pod(), row.patch);
-    setting.traced = host::traced_pairs(fixed.pod(), row.patch);
     const urad_scene& pod = fixed.pod();
     const bool bands = method.find("_bands") != method.npos;
     if (bands) method.erase(method.find("_bands"));
@@ -93,6 +91,7 @@ struct Measured {
     for (const int resolution : {32, 64}) {
       if (method.find(std::to_string(resolution)) == method.npos) continue;
       setting.walks = host::hemicube_walks(resolution, scene.convex ? 0 : bands ? 8 : resolution);
+      if (!scene.convex && method.rfind("hybrid", 0) == 0) setting.walks *= host::kHybridEyes;
     }
     if (method == "table") {
       const std::size_t from = urad::surface_of(pod, row.patch);

@@ -49,9 +49,12 @@ std::map<std::string, std::size_t> laid_out(const std::string& path) {
 /// Sizes that differ from what the chip's compiler says; 0 is what is promised.
 int wrong_bytes(const Measured& m, const host::Plan& plan, const std::string& folder) {
   const std::pair<const char*, std::size_t> objects[] = {
-      {"state", host::kStateBytes},           {"counters", host::kCountersBytes},
-      {"pair_source", host::kPairSourceBytes}, {"pose_source", host::kPoseSourceBytes},
-      {"hemicube_source", host::kHemicubeSourceBytes}, {"hybrid_source", host::kHybridSourceBytes}};
+      {"state", host::kStateBytes},
+      {"counters", host::kCountersBytes},
+      {"pair_source", host::kPairSourceBytes},
+      {"pose_source", host::kPoseSourceBytes},
+      {"hemicube_source", host::kHemicubeSourceBytes},
+      {"hybrid_source", host::kHybridSourceBytes}};
   int wrong = 0;
   for (const auto& [name, bytes] : objects) wrong += m.bytes.at(name) != double(bytes);
   const auto data = laid_out(folder + "/data.txt");
@@ -70,11 +73,13 @@ double factor(double a, double b) { return std::max(a / b, b / a); }
 
 std::string table(const std::vector<Case>& cases) {
   std::string text =
-      "| scene | method | instructions planned | counted | planned / counted | error planned | measured |\n"
+      "| scene | method | instructions planned | counted | planned / counted | error planned | "
+      "measured |\n"
       "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
   for (const Case& c : cases)
-    text += fmt::format("| {} | {} | {} | {} | {:.2f} | {} | {} |\n", c.seed, c.method, host::metric(c.planned_solve),
-                        host::metric(c.solve), c.solve_ratio, host::percent(c.planned_error), host::percent(c.error));
+    text += fmt::format("| {} | {} | {} | {} | {:.2f} | {} | {} |\n", c.seed, c.method,
+                        host::metric(c.planned_solve), host::metric(c.solve), c.solve_ratio,
+                        host::percent(c.planned_error), host::percent(c.error));
   return text;
 }
 
@@ -89,7 +94,8 @@ void check(const std::string& work, const std::string& out, const std::vector<st
     const Measured m(folder, folder + "/room.obj", urad_general.hidden);
     const auto start = std::chrono::steady_clock::now();
     const host::Plan plan = host::make_plan(m.scene, kNets, {});
-    slowest = std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    slowest = std::max(
+        slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     wrong += wrong_bytes(m, plan, folder);
     for (const host::PlannedMethod& line : plan.methods) {
       const auto counted = m.solves.find(family_of(line, m.scene.convex));
@@ -98,23 +104,27 @@ void check(const std::string& work, const std::string& out, const std::vector<st
       c.solve_ratio = line.per_solve / counted->second;
       c.error = chip_light_error(m.scene, host::parse_method(line.method), kNets, kStop);
       cases.push_back(c);
-      fmt::print("{} {:<16} solve {:.2f}  error {} of {}, factor {:.2f}\n", seed, line.method, c.solve_ratio,
-                 host::percent(line.error), host::percent(c.error), factor(line.error, c.error));
+      fmt::print("{} {:<16} solve {:.2f}  error {} of {}, factor {:.2f}\n", seed, line.method,
+                 c.solve_ratio, host::percent(line.error), host::percent(c.error),
+                 factor(line.error, c.error));
     }
   }
   const auto count = [&](auto&& good) { return std::count_if(cases.begin(), cases.end(), good); };
-  const auto instructions = count([](const Case& c) { return std::abs(c.solve_ratio - 1) <= 0.15; });
+  const auto instructions =
+      count([](const Case& c) { return std::abs(c.solve_ratio - 1) <= 0.15; });
   const auto errors = count([](const Case& c) { return factor(c.planned_error, c.error) <= 2; });
   std::string text = host::read_file(std::string(URAD_SOURCE_DIR) + "/bench/plan/PLAN.md.in");
   text += fmt::format(
       "## Tested on {} scenes that no constant has seen\n\n"
-      "Written by `./run plan` (seeds {}): --error 0.01, every method of every scene, whole solves.\n\n"
+      "Written by `./run plan` (seeds {}): --error 0.01, every method of every scene, whole "
+      "solves.\n\n"
       "| what | goal | reached |\n| --- | --- | --- |\n"
       "| sizes that differ from the compiler's | 0 | {} |\n"
       "| instructions of a solve within 15 % | all | {} of {} |\n"
       "| error of B within a factor 2 | all | {} of {} |\n"
       "| slowest plan | 1 s | {:.2f} s |\n\n",
-      seeds.size(), fmt::join(seeds, ", "), wrong, instructions, cases.size(), errors, cases.size(), slowest);
+      seeds.size(), fmt::join(seeds, ", "), wrong, instructions, cases.size(), errors, cases.size(),
+      slowest);
   host::write_file_atomically(out, text + table(cases));
 }
 

@@ -43,11 +43,13 @@ constexpr Named kMethods[] = {{"moment", "fixed-moment", "fixed-moment"},
                               {"hybrid64", "hybrid:64", "hybrid_64"}};
 
 /// Least squares of relative errors with no coefficient below 0 [Lawson & Hanson 1974].
-std::vector<double> fit(const std::vector<std::vector<double>>& terms, const std::vector<double>& values) {
+std::vector<double> fit(const std::vector<std::vector<double>>& terms,
+                        const std::vector<double>& values) {
   const auto rows = Eigen::Index(terms.size()), n = Eigen::Index(terms.front().size());
   Eigen::MatrixXd a(rows, n);
   for (Eigen::Index r = 0; r < rows; ++r)
-    for (Eigen::Index c = 0; c < n; ++c) a(r, c) = terms[std::size_t(r)][std::size_t(c)] / values[std::size_t(r)];
+    for (Eigen::Index c = 0; c < n; ++c)
+      a(r, c) = terms[std::size_t(r)][std::size_t(c)] / values[std::size_t(r)];
   Eigen::VectorXd scale = a.colwise().norm();
   for (Eigen::Index c = 0; c < n; ++c) a.col(c) /= scale[c] = scale[c] > 0 ? scale[c] : 1;
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(rows);
@@ -71,7 +73,8 @@ std::vector<double> fit(const std::vector<std::vector<double>>& terms, const std
     if (next < 0) break;
     in.push_back(next);
     Eigen::VectorXd z = solve();
-    while (!in.empty() && std::any_of(in.begin(), in.end(), [&](Eigen::Index c) { return z[c] <= 0; })) {
+    while (!in.empty() &&
+           std::any_of(in.begin(), in.end(), [&](Eigen::Index c) { return z[c] <= 0; })) {
       double step = 1;
       for (const Eigen::Index c : in)
         if (z[c] <= 0) step = std::min(step, x[c] / (x[c] - z[c]));
@@ -95,7 +98,9 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::vector<double> list(const host::RowWork& work) { return {work.begin(), work.end()}; }
 
-std::string seed_folder(const std::string& work, const std::string& seed) { return work + "/" + seed; }
+std::string seed_folder(const std::string& work, const std::string& seed) {
+  return work + "/" + seed;
+}
 Measured measured_seed(const std::string& work, const std::string& seed) {
   const std::string folder = seed_folder(work, seed);
   return Measured(folder, folder + "/room.obj", urad_general.hidden);
@@ -106,13 +111,15 @@ std::string row_costs(const std::vector<Measured>& scenes) {
   std::set<std::string> families;
   for (const Measured& m : scenes)
     for (const bench::CountedRow& row : m.rows) families.insert(row.family);
-  std::string text = fmt::format("inline constexpr std::array<RowCost, {}> kRowCosts = {{\n", families.size());
+  std::string text =
+      fmt::format("inline constexpr std::array<RowCost, {}> kRowCosts = {{\n", families.size());
   for (const std::string& family : families) {
     std::vector<std::vector<double>> terms;
     std::vector<double> values;
     for (const Measured& m : scenes)
       for (const bench::CountedRow& row : m.rows)
-        if (row.family == family) terms.push_back(list(row.work)), values.push_back(row.instructions);
+        if (row.family == family)
+          terms.push_back(list(row.work)), values.push_back(row.instructions);
     const std::vector<double> x = fit(terms, values);
     double worst = 0;
     for (const Measured& m : scenes) {
@@ -123,9 +130,11 @@ std::string row_costs(const std::vector<Measured>& scenes) {
     }
     std::vector<std::string> parts;
     for (std::size_t k = 0; k < x.size(); ++k)
-      if (x[k] != 0) parts.push_back(fmt::format("{{WorkTerm::{}, {:.5g}}}", host::kWorkNames[k], x[k]));
-    text += fmt::format("    // {} rows, worst scene off by {:.1f} %\n    row_cost(\"{}\", {{{}}}),\n", values.size(),
-                        100 * worst, family, fmt::join(parts, ", "));
+      if (x[k] != 0)
+        parts.push_back(fmt::format("{{WorkTerm::{}, {:.5g}}}", host::kWorkNames[k], x[k]));
+    text +=
+        fmt::format("    // {} rows, worst scene off by {:.1f} %\n    row_cost(\"{}\", {{{}}}),\n",
+                    values.size(), 100 * worst, family, fmt::join(parts, ", "));
     fmt::print("{:<18} {:5} rows, worst scene {:.1f} %\n", family, values.size(), 100 * worst);
   }
   return text + "};\n";
@@ -136,18 +145,22 @@ std::string solver_cost(const std::vector<Measured>& scenes) {
   std::vector<double> per_shot, init;
   for (const Measured& m : scenes) {
     if (m.shots == 0) continue;
-    shots.push_back({1, double(m.fixed.pod().surface_count), double(m.fixed.pod().patch_count), m.updates / m.shots});
+    shots.push_back({1, double(m.fixed.pod().surface_count), double(m.fixed.pod().patch_count),
+                     m.updates / m.shots});
     per_shot.push_back(m.solver / m.shots);
     inits.push_back({1, double(m.fixed.pod().patch_count)});
     init.push_back(m.init);
   }
   const std::vector<double> x = fit(shots, per_shot), y = fit(inits, init);
   double worst = 0;
-  for (std::size_t k = 0; k < shots.size(); ++k) worst = std::max(worst, std::abs(dot(x, shots[k]) / per_shot[k] - 1));
+  for (std::size_t k = 0; k < shots.size(); ++k)
+    worst = std::max(worst, std::abs(dot(x, shots[k]) / per_shot[k] - 1));
   fmt::print("{:<18} {:5} solves, worst {:.1f} %\n", "solver", shots.size(), 100 * worst);
-  return fmt::format("// {} solves, worst off by {:.1f} %\n"
-                     "inline constexpr SolverCost kSolverCost{{{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}}};\n",
-                     shots.size(), 100 * worst, x[0], x[1], x[2], x[3], y[0], y[1]);
+  return fmt::format(
+      "// {} solves, worst off by {:.1f} %\n"
+      "inline constexpr SolverCost kSolverCost{{{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, "
+      "{:.6g}}};\n",
+      shots.size(), 100 * worst, x[0], x[1], x[2], x[3], y[0], y[1]);
 }
 
 struct Ratios {
@@ -164,7 +177,8 @@ struct Ratios {
   }
 };
 
-std::string error_model(const std::string& work, const std::vector<std::string>& seeds, const std::vector<Measured>& scenes) {
+std::string error_model(const std::string& work, const std::vector<std::string>& seeds,
+                        const std::vector<Measured>& scenes) {
   std::map<std::string, Ratios> ratios;
   Ratios scene_net, stop;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
@@ -181,30 +195,39 @@ std::string error_model(const std::string& work, const std::vector<std::string>&
     if (m.scene.convex && trained > 0) scene_net.value.push_back(trained);
     stop.value.push_back(bench::chip_light_error(m.scene, {"table", ""}, kNets, kStop) / kStop);
   }
-  std::string text = fmt::format("inline constexpr std::array<MethodError, {}> kMethodErrors = {{{{\n", ratios.size() + 2);
+  std::string text = fmt::format(
+      "inline constexpr std::array<MethodError, {}> kMethodErrors = {{{{\n", ratios.size() + 2);
   const auto line = [&](const std::string& family, const Ratios& r, bool factor) {
-    text += fmt::format("    // {} scenes, worst off by a factor {:.2f}\n    {{\"{}\", {:.4g}, {:.4g}}},\n", r.value.size(),
-                        r.worst(), family, factor ? r.middle() : 0, factor ? 0 : r.middle());
-    fmt::print("{:<18} {:5} scenes, error {:.3g}, worst factor {:.2f}\n", family, r.value.size(), r.middle(), r.worst());
+    text += fmt::format(
+        "    // {} scenes, worst off by a factor {:.2f}\n    {{\"{}\", {:.4g}, {:.4g}}},\n",
+        r.value.size(), r.worst(), family, factor ? r.middle() : 0, factor ? 0 : r.middle());
+    fmt::print("{:<18} {:5} scenes, error {:.3g}, worst factor {:.2f}\n", family, r.value.size(),
+               r.middle(), r.worst());
   };
   for (const auto& [family, r] : ratios) line(family, r, true);
   line("scene_net", scene_net, false);
   text += "    {\"table\", 0, 0},\n}};\n";
-  fmt::print("{:<18} {:5} scenes, {:.3g}, worst factor {:.2f}\n", "stop", stop.value.size(), stop.middle(), stop.worst());
-  return text + fmt::format("// rms reached over the engine's estimate of 1 %: {} scenes, worst off by a factor {:.2f}\n"
-                            "inline constexpr double kStopShare = {:.4g};\n",
-                            stop.value.size(), stop.worst(), stop.middle());
+  fmt::print("{:<18} {:5} scenes, {:.3g}, worst factor {:.2f}\n", "stop", stop.value.size(),
+             stop.middle(), stop.worst());
+  return text + fmt::format(
+                    "// rms reached over the engine's estimate of 1 %: {} scenes, worst off by a "
+                    "factor {:.2f}\n"
+                    "inline constexpr double kStopShare = {:.4g};\n",
+                    stop.value.size(), stop.worst(), stop.middle());
 }
 
 std::string code_sizes(const std::string& work) {
   std::istringstream lines(host::read_file(work + "/code.txt"));
   std::string text, word, kind;
   int count = 0;
-  for (std::size_t bytes; lines >> word >> kind >> bytes; ++count) text += fmt::format("    {{\"{}\", {}}},\n", kind, bytes);
-  return fmt::format("inline constexpr std::array<MethodCode, {}> kMethodCode = {{{{\n{}}}}};\n", count, text);
+  for (std::size_t bytes; lines >> word >> kind >> bytes; ++count)
+    text += fmt::format("    {{\"{}\", {}}},\n", kind, bytes);
+  return fmt::format("inline constexpr std::array<MethodCode, {}> kMethodCode = {{{{\n{}}}}};\n",
+                     count, text);
 }
 
-void make_constants(const std::string& work, const std::string& out, const std::vector<std::string>& seeds) {
+void make_constants(const std::string& work, const std::string& out,
+                    const std::vector<std::string>& seeds) {
   std::vector<Measured> scenes;
   for (const std::string& seed : seeds) scenes.push_back(measured_seed(work, seed));
   std::vector<Measured> with_cube = scenes;  // a network of four neurons, for what a neuron costs
@@ -213,7 +236,8 @@ void make_constants(const std::string& work, const std::string& out, const std::
       "// GENERATED by `urad_plan_fit fit`, seeds {} -- do not edit. How: docs/PLAN.md.\n"
       "#pragma once\n#include <array>\n\n#include \"plan/model.hpp\"\n\nnamespace host {{\n\n",
       fmt::join(seeds, " "));
-  text += row_costs(with_cube) + "\n" + solver_cost(with_cube) + "\n" + error_model(work, seeds, scenes) + "\n" + code_sizes(work);
+  text += row_costs(with_cube) + "\n" + solver_cost(with_cube) + "\n" +
+          error_model(work, seeds, scenes) + "\n" + code_sizes(work);
   host::write_file_atomically(out, text + "\n}  // namespace host\n");
 }
 
@@ -230,7 +254,8 @@ int main(int argc, char** argv) try {
   } else if (words.size() > 3 && words[0] == "check") {
     bench::check(words[1], words[2], {words.begin() + 3, words.end()});
   } else {
-    fmt::print(stderr, "urad_plan_fit scene SEED DIR | fit WORK OUT SEED... | check WORK OUT SEED...\n");
+    fmt::print(stderr,
+               "urad_plan_fit scene SEED DIR | fit WORK OUT SEED... | check WORK OUT SEED...\n");
     return 2;
   }
   return 0;

@@ -24,15 +24,17 @@ class RandomScene {
     patch_ = uniform(0.12, 0.3) * std::cbrt(side_.x * side_.y * side_.z);
     text_.obj = "mtllib room.mtl\n";
     for (int m = 0; m < 3; ++m) {
-      text_.mtl += fmt::format("newmtl m{}\nKd {:.3f} {:.3f} {:.3f}\n", m, uniform(0.2, 0.85), uniform(0.2, 0.85),
-                               uniform(0.2, 0.85));
+      text_.mtl += fmt::format("newmtl m{}\nKd {:.3f} {:.3f} {:.3f}\n", m, uniform(0.2, 0.85),
+                               uniform(0.2, 0.85), uniform(0.2, 0.85));
     }
-    text_.mtl += fmt::format("newmtl lamp\nKd 0 0 0\nKe {:.2f} {:.2f} {:.2f}\n", uniform(0.5, 2), uniform(0.5, 2),
-                             uniform(0.5, 2));
+    text_.mtl += fmt::format("newmtl lamp\nKd 0 0 0\nKe {:.2f} {:.2f} {:.2f}\n", uniform(0.5, 2),
+                             uniform(0.5, 2), uniform(0.5, 2));
     box({0, 0, 0}, side_, true, kind_ == 3);
-    if (kind_ == 2) box(side_ * glm::dvec3(0.3, 0.3, 0.2), side_ * glm::dvec3(0.65, 0.7, 0.55), false, false);
+    if (kind_ == 2)
+      box(side_ * glm::dvec3(0.3, 0.3, 0.2), side_ * glm::dvec3(0.65, 0.7, 0.55), false, false);
     if (kind_ == 3) {
-      const glm::dvec3 low = side_ * glm::dvec3(0.25, 0.3, 0.5), u(0.5 * side_.x, 0, 0), v(0, 0.4 * side_.y, 0);
+      const glm::dvec3 low = side_ * glm::dvec3(0.25, 0.3, 0.5), u(0.5 * side_.x, 0, 0),
+                       v(0, 0.4 * side_.y, 0);
       quad(low, u, v, 0);
       quad(low, v, u, 1);
     }
@@ -40,12 +42,15 @@ class RandomScene {
   }
 
  private:
-  double uniform(double low, double high) { return low + (high - low) * (double(random_()) + 0.5) / 0x1p32; }
+  double uniform(double low, double high) {
+    return low + (high - low) * (double(random_()) + 0.5) / 0x1p32;
+  }
 
   /// Lit side along u x v.
   void quad(const glm::dvec3& at, const glm::dvec3& u, const glm::dvec3& v, int material) {
     const auto cuts = [&](const glm::dvec3& edge) {
-      return kind_ == 1 ? 2 + int(random_() % 7) : std::max(1, int(std::lround(glm::length(edge) / patch_)));
+      return kind_ == 1 ? 2 + int(random_() % 7)
+                        : std::max(1, int(std::lround(glm::length(edge) / patch_)));
     };
     const int nu = cuts(u), nv = cuts(v);
     for (const glm::dvec3& x : {at, at + u, at + u + v, at + v})
@@ -57,7 +62,8 @@ class RandomScene {
   /// Lit inside or outside. A room has its lamp in the ceiling and may lack the wall at y = 0.
   void box(const glm::dvec3& low, const glm::dvec3& high, bool inside, bool open) {
     const glm::dvec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-    const auto face = [&](const glm::dvec3& at, const glm::dvec3& u, const glm::dvec3& v, int material) {
+    const auto face = [&](const glm::dvec3& at, const glm::dvec3& u, const glm::dvec3& v,
+                          int material) {
       inside ? quad(at, u, v, material) : quad(at, v, u, material);
     };
     face(low, x, y, 0);

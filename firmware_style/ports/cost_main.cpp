@@ -36,7 +36,8 @@ constexpr urad::HemicubeCells<R> kCells = urad::make_hemicube_table<R>();
 
 uint32_t g_memory[urad::radiosity_bytes(kPatches, kPatches) / 4];
 uint32_t g_row[kPatches];
-uint32_t g_hemicube_memory[urad::hemicube_bytes(kMostResolution, kMostResolution, kPatches, true) / 4];
+uint32_t
+    g_hemicube_memory[urad::hemicube_bytes(kMostResolution, kMostResolution, kPatches, true) / 4];
 urad_counters g_counters;
 urad::Radiosity g_radiosity;
 
@@ -46,7 +47,8 @@ struct Output {
   bool solves;
 
   void row(const char* method, const urad_source& from) {
-    const uint16_t step = kScene.patch_count > kRows ? uint16_t(kScene.patch_count / kRows) : uint16_t{1};
+    const uint16_t step =
+        kScene.patch_count > kRows ? uint16_t(kScene.patch_count / kRows) : uint16_t{1};
     for (uint16_t patch = 0; patch < kScene.patch_count; patch = uint16_t(patch + step)) {
       g_counters = {};
       URAD_REGION_BEGIN();
@@ -55,15 +57,21 @@ struct Output {
         from.fill(from.context, patch, s, to.first_patch, to.patch_count, g_row);
       }
       URAD_REGION_END();
-      writer.text("row ").text(method).text(" ").integer(patch).text(" ").integer(kScene.surface_count);
+      writer.text("row ").text(method).text(" ").integer(patch).text(" ").integer(
+          kScene.surface_count);
       const uint32_t* counter = &g_counters.evaluated;
-      for (size_t k = 0; k < sizeof g_counters / sizeof *counter; ++k) writer.text(" ").integer(counter[k]);
+      for (size_t k = 0; k < sizeof g_counters / sizeof *counter; ++k)
+        writer.text(" ").integer(counter[k]);
       writer.text("\n");
     }
   }
 
   void piece() {
-    writer.text("solver ").integer(g_radiosity.counters.shots).text(" ").integer(g_radiosity.counters.updates).text("\n");
+    writer.text("solver ")
+        .integer(g_radiosity.counters.shots)
+        .text(" ")
+        .integer(g_radiosity.counters.updates)
+        .text("\n");
   }
 
   void bytes(const char* what, size_t count) {
@@ -76,21 +84,28 @@ struct Output {
 /// init to 1 %.
 bool whole_solve(Output* output, const char* method, const urad_source& source) {
   URAD_REGION_BEGIN();
-  bool good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, urad::longest_run(kScene), g_memory,
-                                   sizeof g_memory) == urad::Status::ok;
-  while (good && !urad::radiosity_done(g_radiosity, 42949673)) good = urad::radiosity_step(&g_radiosity) == urad::Status::ok;
+  bool good =
+      urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, urad::longest_run(kScene),
+                           g_memory, sizeof g_memory) == urad::Status::ok;
+  while (good && !urad::radiosity_done(g_radiosity, 42949673))
+    good = urad::radiosity_step(&g_radiosity) == urad::Status::ok;
   URAD_REGION_END();
-  output->writer.text("solve ").text(method).text(" ").integer(g_radiosity.counters.shots).text("\n");
+  output->writer.text("solve ")
+      .text(method)
+      .text(" ")
+      .integer(g_radiosity.counters.shots)
+      .text("\n");
   return good;
 }
 
 /// Ends a piece before the source is asked, begins the next when it has answered.
-urad_status interrupted_fill(void* context, uint16_t shooter, uint16_t surface, uint16_t first, uint16_t count,
-                             uint32_t* f_uq32) {
+urad_status interrupted_fill(void* context, uint16_t shooter, uint16_t surface, uint16_t first,
+                             uint16_t count, uint32_t* f_uq32) {
   URAD_REGION_END();
   auto* const output = static_cast<Output*>(context);
   output->piece();
-  const urad_status status = output->source.fill(output->source.context, shooter, surface, first, count, f_uq32);
+  const urad_status status =
+      output->source.fill(output->source.context, shooter, surface, first, count, f_uq32);
   URAD_REGION_BEGIN();
   return status;
 }
@@ -98,8 +113,9 @@ urad_status interrupted_fill(void* context, uint16_t shooter, uint16_t surface, 
 bool solve(Output* output) {
   const urad_source source = {interrupted_fill, output};
   URAD_REGION_BEGIN();
-  bool good = urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, urad::longest_run(kScene), g_memory,
-                                   sizeof g_memory) == urad::Status::ok;
+  bool good =
+      urad::radiosity_init(&g_radiosity, &kScene, source, URAD_OVERSHOOT, urad::longest_run(kScene),
+                           g_memory, sizeof g_memory) == urad::Status::ok;
   URAD_REGION_END();
   output->writer.text("init ").integer(kScene.patch_count).text("\n");
   URAD_REGION_BEGIN();
@@ -119,24 +135,25 @@ bool measure(Output* output, const char* method, const urad_source& source) {
   return true;
 }
 
+/// As `urad solve` asks for them: a hybrid in an occluded scene keeps coverage and looks from four eyes.
 template <int R>
 bool hemicube(Output* output, const char* alone, const char* banded, const char* hybrid_name) {
   const bool convex = kScene.flags & URAD_SCENE_CONVEX;
-  const uint8_t flags = uint8_t(urad::hemicube_turned | (convex ? 0 : urad::hemicube_coverage));
+  const auto rows = uint16_t(convex ? 0 : R);
   urad::HemicubeSource cube;
+  const auto init = [&](uint16_t band, int flags) {
+    return urad::hemicube_init(&cube, &kScene, urad::hemicube_table(kCells<R>), band,
+                               uint8_t(urad::hemicube_turned | flags), g_hemicube_memory,
+                               sizeof g_hemicube_memory, &g_counters) == urad::Status::ok;
+  };
+  const urad_source by_cube = {urad::hemicube_fill, &cube};
+  if (!init(rows, 0) || !measure(output, alone, by_cube)) return false;
+  if (!convex && (!init(kBand, 0) || !measure(output, banded, by_cube))) return false;
   urad::HybridSource hybrid;
-  if (urad::hemicube_init(&cube, &kScene, urad::hemicube_table(kCells<R>), uint16_t(convex ? 0 : R), flags, g_hemicube_memory,
-                          sizeof g_hemicube_memory, &g_counters) != urad::Status::ok)
-    return false;
-  if (!measure(output, alone, {urad::hemicube_fill, &cube})) return false;
-  if (urad::hybrid_init(&hybrid, &cube, urad::Kernel::moment, &URAD_NET_NAME, kRays,
-                        convex ? urad::kThreePatches_uq16 : 0) != urad::Status::ok)
-    return false;
-  if (!measure(output, hybrid_name, {urad::hybrid_fill, &hybrid})) return false;
-  if (convex) return true;
-  const bool good = urad::hemicube_init(&cube, &kScene, urad::hemicube_table(kCells<R>), kBand, flags, g_hemicube_memory,
-                                        sizeof g_hemicube_memory, &g_counters) == urad::Status::ok;
-  return good && measure(output, banded, {urad::hemicube_fill, &cube});
+  return init(rows, convex ? 0 : urad::hemicube_coverage | urad::hemicube_four_eyes) &&
+         urad::hybrid_init(&hybrid, &cube, urad::Kernel::moment, &URAD_NET_NAME, kRays,
+                           convex ? urad::kThreePatches_uq16 : 0) == urad::Status::ok &&
+         measure(output, hybrid_name, {urad::hybrid_fill, &hybrid});
 }
 
 }  // namespace

@@ -136,12 +136,14 @@ class Planner {
     const bool convex = pod_.flags & URAD_SCENE_CONVEX;
     const std::string text = fmt::format("{}:{}", hybrid ? "hybrid" : "hemicube", resolution);
     const auto ram = [&](int rows) {
-      return hemicube_ram(pod_, resolution, rows, !convex) + (hybrid ? kHybridSourceBytes : 0);
+      return hemicube_ram(pod_, resolution, rows, hybrid && !convex) +
+             (hybrid ? kHybridSourceBytes : 0);
     };
     int rows = convex ? 0 : resolution;
     while (rows > 4 && ram(rows) + solver_ram(pod_) > request_.ram) rows /= 2;
     RowSetting setting;
-    setting.walks = hemicube_walks(resolution, convex ? 0 : resolution);
+    const int eyes = hybrid && !convex ? kHybridEyes : 1;
+    setting.walks = eyes * hemicube_walks(resolution, convex ? 0 : resolution);
     const urad_net& net = nets_.find("");
     if (hybrid) setting.hidden = net.hidden;
     const SampledMethod sampled = sample_.run(parse_method(text), nets_, {}, setting);
@@ -152,7 +154,7 @@ class Planner {
     method.data = hemicube_flash(resolution);
     if (hybrid) method.data += net_flash(net.inputs, net.hidden, net.weight_bits);
     const std::string size = fmt::format("{}{}", resolution, convex ? "_convex" : "");
-    const double more = hemicube_walks(resolution, rows) - setting.walks;
+    const double more = eyes * hemicube_walks(resolution, rows) - setting.walks;
     const RowCost& cube = find(kRowCosts, "hemicube" + size);
     const double more_walks = more * (cube.instructions[std::size_t(WorkTerm::walks)] +
                                       cube.instructions[std::size_t(WorkTerm::drawn)] *

@@ -140,22 +140,10 @@ SampledMethod Sample::run(const MethodSpec& spec, const NetChoice& nets,
   const bool few_but_dear = spec.name == "net" || spec.name == "hybrid";
   const auto& shooters = few_but_dear || !scene_.convex ? more_shooters_ : shooters_;
   std::vector<std::uint32_t> row(scene_.patches.size());
-  RowSetting all = setting;
-  for (const std::size_t k : shooters) {
-    counting.row(std::uint16_t(k), row.data());
-    all.looked += looked_pairs(fixed_.pod(), std::uint16_t(k));
-    all.traced += traced_pairs(fixed_.pod(), std::uint16_t(k));
-  }
-  result.work = row_work(counting.counters(), fixed_.pod(), all);
-  const double share = 1 / double(std::max<std::size_t>(shooters.size(), 1));
-  // What was counted is a sum over the rows; the rest is the same for each.
-  for (const WorkTerm term :
-       {WorkTerm::same, WorkTerm::facing, WorkTerm::looked, WorkTerm::ran, WorkTerm::sums,
-        WorkTerm::traced, WorkTerm::evaluated, WorkTerm::clipped, WorkTerm::far, WorkTerm::near,
-        WorkTerm::hidden, WorkTerm::rays, WorkTerm::ray_tests, WorkTerm::cells, WorkTerm::drawn})
-    result.work[std::size_t(term)] *= share;
+  for (const std::size_t k : shooters) counting.row(std::uint16_t(k), row.data());
+  result.work = row_work(counting.counters(), fixed_.pod(), setting, double(shooters.size()));
   const double rays = double(options.rays) / counted.rays;
-  for (const WorkTerm term : {WorkTerm::rays, WorkTerm::ray_tests})
+  for (const WorkTerm term : {WorkTerm::rays, WorkTerm::ray_tests, WorkTerm::spared})
     result.work[std::size_t(term)] *= rays;
   const EngineSource source(fixed_, spec, nets, options);
   const bool row_is_a_cube = spec.name == "hemicube" || spec.name == "hybrid";

@@ -16,75 +16,74 @@ enum class WorkTerm : std::size_t {
   row,     ///< 1
   runs,    ///< calls of the source
   same,    ///< pairs skipped: same plane
-  facing,  ///< pairs skipped: facing away
-  looked,  ///< pairs of runs that a plane may cut, in which every pair is looked at
+  facing,  ///< pairs skipped: facing away, found pair by pair
+  behind,  ///< the same, found with one look at a surface
   evaluated,
   clipped,
-  far,     ///< kernel alone
-  near,    ///< exact sum
-  sums,    ///< points of exact sums
-  ran,     ///< pairs that ran a network
-  hidden,  ///< the same, times its hidden neurons
+  far,   ///< kernel alone
+  near,  ///< exact sum
+  sums,  ///< points of exact sums
+  networks,
+  hidden,  ///< networks times their hidden neurons
   rays,
   ray_tests,
-  traced,  ///< pairs between which a blocker may stand
-  cells,   ///< of a hemicube, written or summed
-  walks,   ///< passes over all polygons: faces times bands
-  drawn,   ///< walks times evaluated
+  spared,    ///< rays not made
+  kept,      ///< blockers that rays are tested against, by pair
+  rejected,  ///< blockers rejected by their bounds, by pair
+  cells,     ///< of a hemicube, written or summed
+  rows,      ///< of a hemicube, summed
+  walks,     ///< passes over all polygons: faces times bands
+  drawn,     ///< walks times evaluated
   patches,
   grid_rows,  ///< rows of receivers, for a pose table
   count
 };
 inline constexpr std::size_t kWorkTerms = std::size_t(WorkTerm::count);
 inline constexpr std::array<std::string_view, kWorkTerms> kWorkNames = {
-    "row",    "runs",  "same",  "facing", "looked",  "evaluated", "clipped",
-    "far",    "near",  "sums",  "ran",    "hidden",  "rays",      "ray_tests",
-    "traced", "cells", "walks", "drawn",  "patches", "grid_rows"};
+    "row",      "runs",  "same",     "facing", "behind", "evaluated", "clipped",  "far",
+    "near",     "sums",  "networks", "hidden", "rays",   "ray_tests", "spared",   "kept",
+    "rejected", "cells", "rows",     "walks",  "drawn",  "patches",   "grid_rows"};
 
 using RowWork = std::array<double, kWorkTerms>;
 
 /// What else a row depends on.
 struct RowSetting {
-  int traced = 0;     ///< WorkTerm::traced
-  int looked = 0;     ///< WorkTerm::looked
   int hidden = 0;     ///< neurons of the network, 0: none
   int walks = 0;      ///< of a hemicube
   int grid_rows = 0;  ///< of a pose table
 };
 
-inline RowWork row_work(const urad_counters& c, const urad_scene& scene,
-                        const RowSetting& setting) {
+/// The work of `rows` rows in which the engine counted `c`, by row.
+inline RowWork row_work(const urad_counters& c, const urad_scene& scene, const RowSetting& setting,
+                        double rows = 1) {
   RowWork work{};
   const auto set = [&](WorkTerm term, double value) { work[std::size_t(term)] = value; };
+  const auto counted = [&](WorkTerm term, double value) { set(term, value / rows); };
   set(WorkTerm::row, 1);
   set(WorkTerm::runs, scene.surface_count);
-  set(WorkTerm::same, c.skipped_same);
-  set(WorkTerm::facing, c.skipped_facing);
-  set(WorkTerm::evaluated, c.evaluated);
-  set(WorkTerm::clipped, c.clipped);
-  set(WorkTerm::far, c.far_pairs);
-  set(WorkTerm::near, c.near_pairs);
-  const double ran = double(c.evaluated) - c.far_pairs - c.near_pairs;
-  set(WorkTerm::looked, setting.looked);
-  set(WorkTerm::sums, c.sums);
-  set(WorkTerm::ran, setting.hidden ? ran : 0);
-  set(WorkTerm::hidden, setting.hidden * ran);
-  set(WorkTerm::rays, c.rays);
-  set(WorkTerm::ray_tests, c.ray_tests);
-  set(WorkTerm::traced, c.rays ? setting.traced : 0);
-  set(WorkTerm::cells, c.cells);
+  counted(WorkTerm::same, c.skipped_same);
+  counted(WorkTerm::facing, double(c.skipped_facing) - c.skipped_behind);
+  counted(WorkTerm::behind, c.skipped_behind);
+  counted(WorkTerm::evaluated, c.evaluated);
+  counted(WorkTerm::clipped, c.clipped);
+  counted(WorkTerm::far, c.far_pairs);
+  counted(WorkTerm::near, c.near_pairs);
+  counted(WorkTerm::sums, c.sums);
+  counted(WorkTerm::networks, c.networks);
+  counted(WorkTerm::hidden, double(setting.hidden) * c.networks);
+  counted(WorkTerm::rays, c.rays);
+  counted(WorkTerm::ray_tests, c.ray_tests);
+  counted(WorkTerm::spared, c.rays_spared);
+  counted(WorkTerm::kept, c.blockers_kept);
+  counted(WorkTerm::rejected, c.blockers_rejected);
+  counted(WorkTerm::cells, c.cells);
+  counted(WorkTerm::rows, c.rows);
   set(WorkTerm::walks, setting.walks);
-  set(WorkTerm::drawn, setting.walks * double(c.evaluated));
+  counted(WorkTerm::drawn, setting.walks * double(c.evaluated));
   set(WorkTerm::patches, scene.patch_count);
   set(WorkTerm::grid_rows, setting.grid_rows);
   return work;
 }
-
-/// Pairs of one shooter that a pair source looks at one by one.
-int looked_pairs(const urad_scene& scene, std::uint16_t shooter);
-
-/// Pairs of one shooter between which a blocker may stand.
-int traced_pairs(const urad_scene& scene, std::uint16_t shooter);
 
 /// Instructions of one family of rows on a Cortex-M0, -O2, by term.
 struct RowCost {
@@ -110,6 +109,9 @@ constexpr RowCost row_cost(std::string_view family, std::initializer_list<TermCo
     result.instructions[std::size_t(cost.term)] = cost.instructions;
   return result;
 }
+
+/// A hybrid in an occluded scene looks from the middles of the patch's quarters.
+inline constexpr int kHybridEyes = 4;
 
 /// Passes over all polygons that a hemicube makes for a row: bands of `rows` rows; 0: one in all.
 constexpr int hemicube_walks(int resolution, int rows) {

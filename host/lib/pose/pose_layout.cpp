@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "pose/pose.hpp"
 #include "pose/pose_block.hpp"
+#include "pose/pose_lattice.hpp"
 #include "urad/patch.hpp"
 
 namespace host {
@@ -19,36 +20,6 @@ namespace host {
 namespace {
 
 constexpr std::uint32_t kNoLight = 0;
-
-Vec3 vec(const urad_point& p) { return {double(p.x), double(p.y), double(p.z)}; }
-
-/// Places of a surface: those of its grid, or a row.
-struct Lattice {
-  int count[2] = {1, 1};
-  Vec3 step[2] = {Vec3(0), Vec3(0)};
-  int first = 0;
-  bool grid = false;
-
-  explicit Lattice(const urad_surface& surface) : first(surface.first_patch) {
-    if ((grid = surface.grid != nullptr)) {
-      count[0] = surface.grid->count_u, count[1] = surface.grid->count_v;
-      step[0] = vec(surface.grid->step_u), step[1] = vec(surface.grid->step_v);
-    } else {
-      count[0] = surface.patch_count;
-    }
-  }
-  std::size_t patch(const int* place) const {
-    return std::size_t(first + place[1] * count[0] + place[0]);
-  }
-};
-
-/// An axis of the receiver's grid that runs along one of the shooter's: only the difference of the
-/// two places matters.
-struct Partner {
-  int axis = -1;     // of the shooter; -1: none
-  int sign = 1;      // 1: the same way, -1: the other
-  double apart = 0;  // corners of pairs with equal difference, at most
-};
 
 /// What a blocker's plane and box see of two surfaces.
 struct Extent {
@@ -74,7 +45,7 @@ class Builder {
       const urad::Patch patch = urad::patch_at(pod_, k);
       Loop corners;
       for (std::uint16_t c = 0; c < patch.vertex_count; ++c)
-        corners.push_back(vec(urad::patch_vertex(pod_, patch, c)));
+        corners.push_back(to_vec(urad::patch_vertex(pod_, patch, c)));
       outline_.push_back(pose_outline(std::move(corners)));
     }
     for (std::uint16_t s = 0; s < pod_.surface_count; ++s) lattice_.emplace_back(pod_.surface[s]);
@@ -124,19 +95,6 @@ class Builder {
       if (front && back) return true;
     }
     return false;
-  }
-
-  Partner partner_of(const Lattice& from, const Lattice& to, int axis, int taken,
-                     double limit) const {
-    if (!from.grid || !to.grid) return {};
-    for (int d = 0; d < 2; ++d) {
-      const int shared = std::min(from.count[d], to.count[axis]) - 1;
-      for (const int sign : {1, -1}) {
-        const double apart = shared * glm::length(to.step[axis] - double(sign) * from.step[d]);
-        if (d != taken && shared > 0 && apart <= limit) return {d, sign, apart};
-      }
-    }
-    return {};
   }
 
   /// What the pair of these patches finds in the table.
