@@ -14,9 +14,9 @@ namespace host {
 
 namespace {
 
-constexpr double kSampledPairs = 6000;    // of each set of rows, convex
-constexpr double kSampledRays = 500'000;  // of each set of rows, occluded
-constexpr std::size_t kFewestRows = 6, kMostRows = 24, kMoreRows = 4;
+constexpr double kSampledPairs = 20'000;    // of each set of rows, convex
+constexpr double kSampledRays = 1'500'000;  // of each set of rows, occluded
+constexpr std::size_t kFewestRows = 6, kMostRows = 64, kMoreRows = 2;
 constexpr double kCountedPairs = 15'000;  // by each method, occluded, with few rays
 constexpr int kCountedRays = 4;
 constexpr int kRays = 512;  // pairs of points a pair, for the reference's visibility

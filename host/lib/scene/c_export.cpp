@@ -95,7 +95,7 @@ constexpr std::size_t kPointBytes = 12, kShapeBytes = 36,
                       kGridBytes = 3 * kPointBytes + 4 + kShapeBytes;
 constexpr std::size_t kPolygonBytes = kShapeBytes + kPointBytes + 8, kSurfaceBytes = 16,
                       kMaterialBytes = 20;
-constexpr std::size_t kBlockerBytes = 3 * kPointBytes + 8, kSceneBytes = 44;
+constexpr std::size_t kBlockerBytes = 3 * kPointBytes + 8, kSceneBytes = 40, kCrcBytes = 8;
 static_assert(sizeof(urad_shape) == kShapeBytes && sizeof(urad_grid) == kGridBytes);
 static_assert(sizeof(urad_polygon) == kPolygonBytes && sizeof(urad_material) == kMaterialBytes);
 static_assert(sizeof(urad_blocker) == kBlockerBytes);
@@ -111,7 +111,7 @@ std::string c_identifier(const std::string& text) {
 }
 
 std::size_t scene_flash_bytes(const urad_scene& s, bool scaled) {
-  std::size_t bytes = kSceneBytes + s.surface_count * kSurfaceBytes +
+  std::size_t bytes = kSceneBytes + kCrcBytes + s.surface_count * kSurfaceBytes +
                       s.material_count * kMaterialBytes + s.blocker_count * kBlockerBytes +
                       s.vertex_count * kPointBytes + (scaled ? std::size_t{4} * s.patch_count : 0);
   for (std::size_t k = 0; k < s.surface_count; ++k)
