@@ -214,3 +214,26 @@ TEST_CASE(
   CHECK(reference.f == doctest::Approx(2.26e-9).epsilon(1e-3));
   CHECK(std::abs(reference.f - sampled.f) < 5 * sampled.relative_error * sampled.f);
 }
+
+TEST_CASE("slivers along two axes keep the tiny cosines of their edges") {
+  // Every pair of edges was skipped as perpendicular. Truth: both integrals to 30 digits.
+  const Polygon p{{{2, 0, 0x1.91bc27eba94d5p-26}, {2, 2, 0x1.283865bc73876p-28}, {2, 1, 0}}, {}};
+  const Polygon q{
+      {{1, 0, 0x1.949441c9f4896p-26}, {1, 0, 0x1.c0cbcd36ea38fp-25}, {2, 0, 0x1.31099582530dbp-25}},
+      {}};
+  CHECK(std::abs(reference_form_factor(p, q) - 1.70689203376e-9) <= 1e-14);
+}
+
+TEST_CASE("planes that almost agree are cut where they meet") {
+  // Triangles 1e-9 apart, turned by 1e-8: a normal's last digit moved the cut by 1e-7. Truth as
+  // above.
+  const Polygon p{{{0x1.fffffffc4314fp+0, 0x1.4b1e33cb9434p-28, 0x1.ffffffead7e88p+0},
+                   {0x1.000000137f85cp+0, 0x1.00000007899bcp+1, 0x1.00000010ce26bp+0},
+                   {0x1.90ccbe0fd5d8p-29, 0x1.0000001482124p+0, -0x1.1acb914dc659ap-28}},
+                  {}};
+  const Polygon q{{{0x1.4bf463fe7c32fp-28, 0x1.459a73e58533cp-30, -0x1.4d23cf9521cb4p-28},
+                   {0x1.000000098c2e7p+0, 0x1.0000000d938a7p+1, 0x1.fffffff0531fp-1},
+                   {0x1.0000000621817p+0, 0x1.0000001c94f82p+0, 0x1.fffffff41c56ap-1}},
+                  {}};
+  CHECK(std::abs(reference_form_factor(p, q) - 0.0590207786596866592) <= 1e-10);
+}

@@ -51,7 +51,7 @@ FacingPair clip_to_front(const Polygon& p, const Polygon& q) {
   const Moments mp = moments(p);
   const Moments mq = moments(q);
   if (mp.area <= 0 || mq.area <= 0 || planes_agree(p, mp, q, mq)) return {};
-  FacingPair pair{clip(p, mq.centroid, mq.normal), clip(q, mp.centroid, mp.normal)};
+  FacingPair pair{clip(p, plane_of(q)), clip(q, plane_of(p))};
   if (pair.empty()) return {};
   return pair;
 }

@@ -65,14 +65,21 @@ Exchange contour_exchange(const Side& p, const Side& q) {
   double rounding = 0;
   for (const Edge& e : p_edges)
     for (const Edge& f : q_edges) {
-      const double cosine = glm::dot(e.direction, f.direction);
-      if (std::abs(cosine) <= kEpsilon || e.length * f.length <= negligible) continue;
+      const Vec3 products = e.direction * f.direction;
+      const double cosine = products.x + products.y + products.z;
+      // What rounding leaves of a cosine: little where the axes are those of the edges, however
+      // small the cosine, so that slivers along two axes keep theirs.
+      const double noise =
+          kEpsilon * (std::abs(products.x) + std::abs(products.y) + std::abs(products.z));
+      const double lengths = e.length * f.length;
+      rounding += noise * lengths;
+      if (std::abs(cosine) <= noise || lengths <= negligible) continue;
       const double term = cosine * log_distance_integral(e, f, unit);
       sum += term;
-      rounding += std::abs(term) + std::abs(cosine) * e.length * f.length;
+      rounding += kEpsilon * (std::abs(term) + std::abs(cosine) * lengths);
     }
   constexpr double kScale = 0.5 * std::numbers::inv_pi;
-  return {kScale * sum, 4 * kScale * kEpsilon * rounding};
+  return {kScale * sum, 4 * kScale * rounding};
 }
 
 /// Points of a fan of quadrilaterals with signed areas. They may lie outside a concave polygon;

@@ -9,12 +9,16 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
+using LongVec3 = glm::vec<3, long double>;
+
 /// Twice the area vector of a loop, seen from `origin` [Newell]. Smaller coordinates, smaller
 /// rounding.
-Vec3 doubled_area(const Loop& loop, const Vec3& origin) {
-  Vec3 sum(0);
+template <class Vector = Vec3>
+Vector doubled_area(const Loop& loop, const Vec3& origin) {
+  Vector sum(0);
   for (std::size_t k = 0; k < loop.size(); ++k)
-    sum += glm::cross(loop[k] - origin, loop[(k + 1) % loop.size()] - origin);
+    sum += glm::cross(Vector(loop[k]) - Vector(origin),
+                      Vector(loop[(k + 1) % loop.size()]) - Vector(origin));
   return sum;
 }
 
@@ -62,25 +66,27 @@ struct Integrals {
 /// Where the edge meets the plane, given the heights of its ends. From the same end whatever the
 /// edge's direction, so that both halves of a polygon, and two polygons with a common edge, get the
 /// same point.
-Vec3 cut(const Vec3& a, double ha, const Vec3& b, double hb) {
+Vec3 cut(const Vec3& a, long double ha, const Vec3& b, long double hb) {
   const bool a_first = a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-  return a_first ? a + (b - a) * (ha / (ha - hb)) : b + (a - b) * (hb / (hb - ha));
+  const LongVec3 from(a_first ? a : b), to(a_first ? b : a);
+  const long double share = a_first ? ha / (ha - hb) : hb / (hb - ha);
+  return Vec3(from + (to - from) * share);
 }
 
-Loop clip_loop(const Loop& loop, const Vec3& point, const Vec3& normal, bool* any_in_front) {
-  // A height below the rounding of its own dot product has no sign: such a vertex is on the plane.
+Loop clip_loop(const Loop& loop, const Plane& plane, bool* any_in_front) {
+  // A height below the rounding of its own coordinates has no sign: such a vertex is on the plane.
   const auto height = [&](const Vec3& x) {
-    const double h = glm::dot(normal, x - point);
-    const double reach = largest_coordinate(x) + largest_coordinate(point);
-    return std::abs(h) <= 4 * kEpsilon * reach ? 0.0 : h;
+    const long double h = glm::dot(plane.normal, LongVec3(x) - LongVec3(plane.point));
+    const double reach = largest_coordinate(x) + largest_coordinate(plane.point);
+    return std::abs(h) <= 4 * kEpsilon * reach ? 0.0L : h;
   };
   Loop kept;
   kept.reserve(loop.size() + 4);
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Vec3& a = loop[k];
     const Vec3& b = loop[(k + 1) % loop.size()];
-    const double ha = height(a);
-    const double hb = height(b);
+    const long double ha = height(a);
+    const long double hb = height(b);
     if (ha > 0) *any_in_front = true;
     if (ha >= 0) kept.push_back(a);
     if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0)) kept.push_back(cut(a, ha, b, hb));
@@ -131,13 +137,22 @@ std::vector<Loop> boundary(const Polygon& polygon) {
 }
 
 Polygon clip(const Polygon& polygon, const Vec3& point, const Vec3& normal) {
+  return clip(polygon, Plane{point, LongVec3(normal)});
+}
+
+Plane plane_of(const Polygon& polygon) {
+  const Vec3& point = polygon.outer[0];
+  return {point, glm::normalize(doubled_area<LongVec3>(polygon.outer, point))};
+}
+
+Polygon clip(const Polygon& polygon, const Plane& plane) {
   bool in_front = false;
-  Polygon kept{clip_loop(polygon.outer, point, normal, &in_front), {}};
+  Polygon kept{clip_loop(polygon.outer, plane, &in_front), {}};
   const bool whole = kept.outer.size() == polygon.outer.size();
   if (kept.outer.size() < 3 || (!in_front && !whole)) return {};
   for (const Loop& hole : polygon.holes) {
     bool unused = false;
-    Loop loop = clip_loop(hole, point, normal, &unused);
+    Loop loop = clip_loop(hole, plane, &unused);
     if (loop.size() >= 3) kept.holes.push_back(std::move(loop));
   }
   return kept;

@@ -35,4 +35,16 @@ std::vector<Loop> boundary(const Polygon& polygon);
 /// loop when nothing is left.
 Polygon clip(const Polygon& polygon, const Vec3& point, const Vec3& normal);
 
+/// A plane in more digits than coordinates have: where two planes almost agree, the line in which
+/// they meet moves by the rounding of a normal over the angle between them.
+struct Plane {
+  Vec3 point;
+  glm::vec<3, long double> normal;  ///< unit length
+};
+
+/// The plane of a polygon with an area, through its first vertex.
+Plane plane_of(const Polygon& polygon);
+
+Polygon clip(const Polygon& polygon, const Plane& plane);
+
 }  // namespace host

@@ -15,7 +15,7 @@ namespace host {
 
 namespace {
 
-constexpr int kEpochs = 40;
+constexpr int kEpochs = 400;
 
 struct Trial {
   int hidden;
