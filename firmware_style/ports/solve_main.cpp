@@ -1,5 +1,6 @@
-// solve IN OUT [table] -- radiosity of one exported scene by its network; every integer of the result goes to OUT.
-// With the word `table`: by its pose table, if the image was built with one (URAD_POSES).
+// solve IN OUT [table|legacy] -- radiosity of one exported scene by its network; every integer of the result goes to OUT.
+// With the word `table`: by its pose table; with `legacy`: by a network of the 1996 report. The image must have been built
+// with them (URAD_POSES, URAD_LEGACY).
 //
 // IN is a text of integers, read at run time: the error at which to stop (UQ0.32), the largest number of shots, then
 // for each material in turn its reflectance (three, UQ1.15) and exitance (three). Materials that are left out stay as
@@ -11,9 +12,13 @@
 #ifdef URAD_POSES_HEADER
 #include URAD_POSES_HEADER
 #endif
+#ifdef URAD_LEGACY_HEADER
+#include URAD_LEGACY_HEADER
+#endif
 #include "port.hpp"
 #include "text.hpp"
 #include "urad/form_factor.hpp"
+#include "urad/legacy.hpp"
 #include "urad/network.hpp"
 #include "urad/pose_table.hpp"
 #include "urad/radiosity.hpp"
@@ -35,6 +40,13 @@ urad::Radiosity g_radiosity;
 const urad_pose_table* const kPoses = &URAD_POSES_NAME;
 #else
 const urad_pose_table* const kPoses = nullptr;
+#endif
+#ifdef URAD_LEGACY_HEADER
+const urad_legacy_net* const kLegacy = &URAD_LEGACY_NAME;
+int32_t g_legacy_memory[urad::legacy_bytes(URAD_LEGACY_MAX_HIDDEN) / 4];
+#else
+const urad_legacy_net* const kLegacy = nullptr;
+int32_t g_legacy_memory[1];
 #endif
 
 struct Limits {
@@ -127,10 +139,18 @@ int run() {
   urad::PairSource pairs = {&g_scene, &URAD_NET_NAME, urad::Kernel::moment, rays, 0, &g_counters};
   urad::PoseSource poses = {&g_scene, kPoses, &g_counters};
   urad_source source = {urad::pair_fill, &pairs};
+  urad::LegacySource legacy;
   if (port::word(3, path, sizeof path)) {
-    if (path[0] != 't') return fail("third word must be table, or none");
-    if (urad::pose_table_check(kPoses, &g_scene) != urad::Status::ok) return fail("no pose table, or not of this scene");
-    source = {urad::pose_fill, &poses};
+    if (path[0] == 't') {
+      if (urad::pose_table_check(kPoses, &g_scene) != urad::Status::ok) return fail("no pose table, or not of this scene");
+      source = {urad::pose_fill, &poses};
+    } else if (path[0] == 'l') {
+      if (urad::legacy_init(&legacy, &g_scene, kLegacy, rays, &g_counters, g_legacy_memory, sizeof g_legacy_memory) != urad::Status::ok)
+        return fail("no network of the report, or a scene of other patches than quads");
+      source = {urad::legacy_fill, &legacy};
+    } else {
+      return fail("third word must be table, legacy or none");
+    }
   }
   const uint16_t longest = urad::longest_run(g_scene);
   if (urad::radiosity_init(&g_radiosity, &g_scene, source, URAD_OVERSHOOT, longest < kLongestRun ? longest : kLongestRun, g_memory,

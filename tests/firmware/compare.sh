@@ -2,7 +2,7 @@
 # compare.sh WORK SCENE.h NET.h BOARD... -- solves the scene on this machine and on each emulated board, with the exported
 # materials and with reflectances and a lamp chosen now, and compares every integer of the result.
 # The seed is printed; URAD_SEED repeats a run. URAD_ERROR (UQ0.32) is where the solves stop, 1 % if not given.
-# URAD_BY=table solves by the pose table beside SCENE.h instead of the network.
+# URAD_BY=table solves by the pose table beside SCENE.h instead of the network, URAD_BY=legacy by the one URAD_LEGACY names.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$1 scene=$2 net=$3
