@@ -83,7 +83,7 @@ void sums(port::Writer& labels, uint16_t shooter, uint16_t receiver) {
   if (cheapest().way == urad::Way::none) return;
   measure(labels, "pair_auto", [&] { g_sink = cheapest().log2_exchange_q24; });
   measure(labels, "pair_point",
-          [&] { g_sink = urad::lambert_whole(kScene, i, j, 1).log2_exchange_q24; });
+          [&] { g_sink = urad::lambert_refined(kScene, i, j, 1, 0).log2_exchange_q24; });
 }
 
 bool shots(port::Writer& labels, const char* label, const urad_source& source, int count) {

@@ -1,89 +1,17 @@
 #include "urad/cheapest.hpp"
 
 #include "cheapest_models.hpp"
-#include "lambert_carrier.hpp"
-#include "pair_cut.hpp"
-#include "urad/lambert.hpp"
+#include "cheapest_traits.hpp"
+#include "lambert_refiner.hpp"
 #include "urad/network.hpp"
 
 namespace urad {
 
 namespace {
 
-constexpr int16_t kMostError_q8 = 4 * 256;  // beyond a factor 16 all are equally useless
-
-constexpr uint32_t kNearRho_uq16 = 22938;
-constexpr int32_t kLeastDoubt_q8 = -16 * 256;
-
-constexpr int32_t q8(int32_t x_q24) noexcept { return round_shift(x_q24, 16); }
-
-/// log2 of a trait, x with `fraction_bits`; 0 counts as one unit.
-constexpr int16_t log2_trait_q8(uint32_t x, int fraction_bits) noexcept {
-  return int16_t(q8(log2_q24(x)) - fraction_bits * 256);
-}
-
-constexpr int16_t limited_q8(int32_t x) noexcept {
-  return int16_t(x > 32767 ? 32767 : x < -32767 ? -32767 : x);
-}
-
-/// Opposite corners have the same mean, within 2^-8 of the patch's size.
-bool is_parallelogram(const urad_scene& scene, const Patch& patch) noexcept {
-  if (patch.surface->grid) return true;
-  if (patch.vertex_count != 4) return false;
-  const urad_point off = (patch_vertex(scene, patch, 0) - patch_vertex(scene, patch, 1)) -
-                         (patch_vertex(scene, patch, 3) - patch_vertex(scene, patch, 2));
-  return log2_q24(square(off)) <= patch.shape->log2_spread_q24 - (16 << 24) ||
-         square(off) <= uint64_t{16};  // rounding of the corners
-}
-
-uint32_t bend_sum_uq22(const PairSide& side) noexcept {
-  return 2 * side.size_uq22 + 12 * uint32_t(side.along_q22 > 0 ? side.along_q22 : 0) +
-         4 * magnitude(side.across_q22);
-}
-
-void fill_traits(const urad_scene& scene, const Patch& i, const Patch& j, const PairKernel& kernel,
-                 bool cut, PairTraits* traits) noexcept {
-  const PairSide &a = kernel.side[0], &b = kernel.side[1];
-  const PairSide& carrier = carries(i, j) ? a : b;
-  const bool grazing_a = a.log2_cosine_q24 < b.log2_cosine_q24;
-  const bool thin_a = a.shape->fill_uq15 < b.shape->fill_uq15;
-  int16_t* const t = traits->log2_q8;
-  t[trait_bend_sum] = log2_trait_q8(bend_sum_uq22(a) + bend_sum_uq22(b), 22);
-  t[trait_bend] = log2_trait_q8(magnitude(kernel.log2_bend_q24), 24);
-  t[trait_rho] = log2_trait_q8(kernel.rho_uq22, 22);
-  t[trait_cosine_least] = limited_q8(q8((grazing_a ? a : b).log2_cosine_q24));
-  t[trait_cosine_most] = limited_q8(q8((grazing_a ? b : a).log2_cosine_q24));
-  t[trait_fill] = log2_trait_q8((thin_a ? a : b).shape->fill_uq15, 15);
-  t[trait_size] = limited_q8(q8(carrier.log2_slope_q24 + carrier.log2_cosine_other_q24));
-  t[trait_slant] = limited_q8(q8(carrier.log2_slope_q24 - carrier.log2_cosine_other_q24));
-  t[trait_doubt] = 0;
-  traits->pair_class = cut                               ? PairClass::cut
-                       : kernel.rho_uq16 > kNearRho_uq16 ? PairClass::near
-                       : is_parallelogram(scene, i) && is_parallelogram(scene, j)
-                           ? PairClass::symmetric
-                           : PairClass::lopsided;
-}
-
-/// Sums that hardly doubt themselves are as exact as their rounding.
-constexpr int16_t doubt_q8(int32_t log2_doubt_q24) noexcept {
-  const int32_t doubt = q8(log2_doubt_q24);
-  return int16_t(doubt < kLeastDoubt_q8 ? kLeastDoubt_q8 : doubt > 32767 ? 32767 : doubt);
-}
-
-int32_t weighted_q8(const ErrorModel& model, const PairTraits& traits) noexcept {
-  int32_t sum_q16 = 0;
-  for (int k = 0; k < kTraits; ++k) sum_q16 += model.weight_q8[k] * traits.log2_q8[k];
-  return model.base_q8 + shift_down(sum_q16, 8);
-}
-
-const ErrorModel& model_of(Way way, const PairTraits& traits) noexcept {
-  return kErrorModel[int(way)][int(traits.pair_class)];
-}
-
-int16_t within_q8(int32_t error_q8, int32_t floor_q8) noexcept {
-  const int32_t above = error_q8 > floor_q8 ? error_q8 : floor_q8;
-  return int16_t(above > kMostError_q8 ? kMostError_q8 : above);
-}
+constexpr int32_t kMostError_q8 = 4 * 256;      // beyond a factor 16 all are equally useless
+constexpr int32_t kLeastError_q8 = -19 * 256;   // log2 and exp2 are chords
+constexpr int32_t kSumRounding_q8 = -31 * 256;  // of a sum, relative to a factor of 1
 
 int32_t by_kernel_q24(const PairKernel& kernel) noexcept {
   return kernel.log2_kernel_q24 + kernel.log2_bend_q24;
@@ -96,71 +24,120 @@ int32_t by_network_q24(const PairKernel& kernel, const urad_net& net) noexcept {
   return by_kernel_q24(kernel) + mul_round(network_run(net, inputs.input_q15), inputs.gate_uq16, 8);
 }
 
-/// What a sum's own rounding leaves in doubt: kSumRounding of the factor, whatever that is.
-int32_t rounding_q8(const Patch& i, const Patch& j, int32_t log2_g_q24) noexcept {
-  const Patch& carrier = carries(i, j) ? i : j;
-  return kSumRounding_q8 - q8(log2_g_q24 - carrier.shape->log2_area_q24);
+int16_t within_q8(int32_t error_q8, int32_t floor_q8) noexcept {
+  const int32_t above = error_q8 > floor_q8 ? error_q8 : floor_q8;
+  return int16_t(above > kMostError_q8 ? kMostError_q8 : above);
 }
 
+/// One pair on its way from cheap to dear.
+class Search {
+ public:
+  Search(const ErrorModels& models, const urad_scene& scene, const Patch& i,
+         const Patch& j) noexcept
+      : models_(models), scene_(scene), i_(i), j_(j) {}
+
+  /// False when the two exchange nothing.
+  bool begin() noexcept {
+    bool cut = false;
+    if (!clipped_kernel(scene_, i_, j_, &cuts_, &kernel_, &limit_q24_, &cut)) return false;
+    fill_traits(scene_, i_, j_, cuts_, kernel_, &traits_);
+    return true;
+  }
+
+  CheapestPair run(const urad_net* net, int16_t log2_error_q8) noexcept {
+    wanted_q8_ = log2_error_q8;
+    if (guess(models_.kernel)) return found(by_kernel_q24(kernel_), Way::kernel);
+    if (net && !cut() && guess(models_.network))
+      return found(by_network_q24(kernel_, *net), Way::network);
+    LambertPair pair;
+    if (!lambert_pair(scene_, i_, j_, &pair)) return nothing();
+    if (guess(models_.point) && sum(pair, 1, models_.point, Way::point)) return result_;
+    if (guess(models_.before_four) && sum(pair, 2, models_.four_points, Way::four_points))
+      return result_;
+    return refine(pair);
+  }
+
+  bool cut() const noexcept { return traits_.pair_class == PairClass::cut; }
+
+ private:
+  bool guess(const ErrorModel& model) noexcept {
+    error_q8_ = within_q8(error_q8(model, traits_), kLeastError_q8);
+    return error_q8_ <= wanted_q8_;
+  }
+
+  CheapestPair found(int32_t log2_g_q24, Way way) const noexcept {
+    return {least(log2_g_q24, limit_q24_), error_q8_, way, point_sums_};
+  }
+  static CheapestPair nothing() noexcept { return {kNoExchange, -32767, Way::none, 0}; }
+
+  /// What is known after a sum; true when it is good enough.
+  bool judge(const LambertSum& sum, const ErrorModel& model, Way way) noexcept {
+    if (sum.log2_exchange_q24 == kNoExchange) {
+      result_ = nothing();
+      return false;
+    }
+    fill_traits(sum, by_kernel_q24(kernel_), &traits_);
+    const Patch& carrier = carries(i_, j_) ? i_ : j_;
+    const int32_t factor_q8 = q8(sum.log2_exchange_q24 - carrier.shape->log2_area_q24);
+    const bool good = guess(model);
+    error_q8_ = within_q8(error_q8_, kSumRounding_q8 - factor_q8);
+    result_ = found(sum.log2_exchange_q24, way);
+    return good;
+  }
+
+  bool sum(const LambertPair& pair, int points, const ErrorModel& model, Way way) noexcept {
+    const LambertRun run(scene_, pair, points);
+    const LambertSum sum = run.sum();
+    point_sums_ = uint16_t(point_sums_ + sum.point_sums);
+    return judge(sum, model, way);
+  }
+
+  /// Nine points; halvings until the sum is good enough, or there is nothing left to halve.
+  CheapestPair refine(const LambertPair& pair) noexcept {
+    const uint16_t before = point_sums_;
+    LambertRun run(scene_, pair, kRefinedPoints);
+    for (Way way = Way::nine_points;; way = Way::refined) {
+      const LambertSum sum = run.sum();
+      point_sums_ = uint16_t(before + sum.point_sums);
+      if (judge(sum, models_.refined, way) || !run.halve_worst()) return result_;
+    }
+  }
+
+  const ErrorModels& models_;
+  const urad_scene& scene_;
+  const Patch &i_, &j_;
+  Cuts cuts_;
+  PairKernel kernel_;  // points into cuts_
+  PairTraits traits_;
+  CheapestPair result_;
+  int32_t limit_q24_ = 0;
+  int16_t wanted_q8_ = 0, error_q8_ = 0;
+  uint16_t point_sums_ = 0;
+};
+
 }  // namespace
+
+CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scene, const Patch& i,
+                               const Patch& j, const urad_net* net, int16_t log2_error_q8,
+                               urad_counters* counters) noexcept {
+  Search search(models, scene, i, j);
+  CheapestPair pair{kNoExchange, -32767, Way::none, 0};
+  if (search.begin()) pair = search.run(net, log2_error_q8);
+  if (pair.way == Way::none) {
+    ++counters->skipped_facing;
+    return pair;
+  }
+  ++counters->evaluated;
+  if (search.cut()) ++counters->clipped;
+  if (pair.way == Way::kernel) ++counters->far_pairs;
+  if (pair.way > Way::network) ++counters->near_pairs;
+  return pair;
+}
 
 CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Patch& j,
                                const urad_net* net, int16_t log2_error_q8,
                                urad_counters* counters) noexcept {
-  Cuts cuts;
-  PairKernel kernel;
-  PairTraits traits;
-  int32_t limit_q24 = 0;
-  bool cut = true;
-  uint16_t point_sums = 0;
-  const bool known = clipped_kernel(scene, i, j, &cuts, &kernel, &limit_q24, &cut);
-  const auto found = [&](int32_t log2_g_q24, Way way, int32_t floor_q8) {
-    ++counters->evaluated;
-    if (cut) ++counters->clipped;
-    if (way == Way::kernel) ++counters->far_pairs;
-    if (way > Way::network) ++counters->near_pairs;
-    return CheapestPair{least(log2_g_q24, limit_q24),
-                        within_q8(weighted_q8(model_of(way, traits), traits), floor_q8), way,
-                        point_sums};
-  };
-  const auto nothing = [&] {
-    ++counters->skipped_facing;
-    return CheapestPair{kNoExchange, -32767, Way::none, 0};
-  };
-  if (!known) return nothing();
-  fill_traits(scene, i, j, kernel, cut, &traits);
-  const auto good = [&](Way way) {
-    return within_q8(weighted_q8(model_of(way, traits), traits), kKernelFloor_q8) <= log2_error_q8;
-  };
-  if (good(Way::kernel)) return found(by_kernel_q24(kernel), Way::kernel, kKernelFloor_q8);
-  if (net && !cut && good(Way::network))
-    return found(by_network_q24(kernel, *net), Way::network, kKernelFloor_q8);
-
-  const auto sum_found = [&](const LambertSum& sum, Way way) {
-    traits.log2_q8[trait_doubt] = doubt_q8(sum.log2_doubt_q24);
-    return found(sum.log2_exchange_q24, way, rounding_q8(i, j, sum.log2_exchange_q24));
-  };
-  if (good(Way::point)) {
-    const LambertSum sum = lambert_whole(scene, i, j, 1);
-    point_sums = sum.point_sums;
-    if (sum.log2_exchange_q24 != kNoExchange) return sum_found(sum, Way::point);
-  }
-  for (int points = 2; points <= 3; ++points) {
-    const Way way = points == 2 ? Way::four_points : Way::nine_points;
-    const ErrorModel& before = kErrorBefore[points - 2][int(traits.pair_class)];
-    if (weighted_q8(before, traits) > log2_error_q8) continue;
-    const LambertSum sum = lambert_whole(scene, i, j, points);
-    point_sums = uint16_t(point_sums + sum.point_sums);
-    traits.log2_q8[trait_doubt] = doubt_q8(sum.log2_doubt_q24);
-    if (sum.log2_exchange_q24 != kNoExchange && good(way)) return sum_found(sum, way);
-    traits.log2_q8[trait_doubt] = 0;
-  }
-  const int32_t rest_q8 = weighted_q8(model_of(Way::refined, traits), traits);
-  const int32_t wanted_q16 = (log2_error_q8 - rest_q8) * kRefinedInverse_q8[int(traits.pair_class)];
-  const LambertSum sum = lambert_refined(scene, i, j, wanted_q16 * 256);
-  if (sum.log2_exchange_q24 == kNoExchange) return nothing();
-  point_sums = uint16_t(point_sums + sum.point_sums);
-  return sum_found(sum, Way::refined);
+  return cheapest_exchange(kErrorModels, scene, i, j, net, log2_error_q8, counters);
 }
 
 int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j) noexcept {
@@ -171,37 +148,26 @@ int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch
 }
 
 bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
-                 const urad_net* net, int32_t log2_doubt_q24, int32_t* log2_exchange_q24,
+                 const urad_net* net, int halvings, int32_t* log2_exchange_q24,
                  PairTraits* traits) noexcept {
   Cuts cuts;
   PairKernel kernel;
-  int32_t limit_q24;
-  bool cut;
+  int32_t limit_q24 = 0;
+  bool cut = false;
   if (!clipped_kernel(scene, i, j, &cuts, &kernel, &limit_q24, &cut)) return false;
-  fill_traits(scene, i, j, kernel, cut, traits);
-  LambertSum sum{kNoExchange, 0, 0};
-  switch (way) {
-    case Way::kernel:
-      sum.log2_exchange_q24 = by_kernel_q24(kernel);
-      break;
-    case Way::network:
-      if (net) sum.log2_exchange_q24 = by_network_q24(kernel, *net);
-      break;
-    case Way::point:
-    case Way::four_points:
-    case Way::nine_points:
-      sum = lambert_whole(scene, i, j, int(way) - int(Way::point) + 1);
-      break;
-    case Way::refined:
-      sum = lambert_refined(scene, i, j, log2_doubt_q24);
-      break;
-    case Way::none:
-      break;
+  fill_traits(scene, i, j, cuts, kernel, traits);
+  int32_t log2_g_q24 = by_kernel_q24(kernel);
+  if (way == Way::network) {
+    if (!net) return false;
+    log2_g_q24 = by_network_q24(kernel, *net);
+  } else if (way != Way::kernel) {
+    const int points = way == Way::refined ? kRefinedPoints : int(way) - int(Way::point) + 1;
+    const LambertSum sum = lambert_refined(scene, i, j, points, way == Way::refined ? halvings : 0);
+    if (sum.log2_exchange_q24 == kNoExchange) return false;
+    fill_traits(sum, log2_g_q24, traits);
+    log2_g_q24 = sum.log2_exchange_q24;
   }
-  traits->log2_q8[trait_doubt] = doubt_q8(sum.log2_doubt_q24);
-  *log2_exchange_q24 = sum.log2_exchange_q24;
-  if (sum.log2_exchange_q24 == kNoExchange) return false;
-  *log2_exchange_q24 = least(sum.log2_exchange_q24, limit_q24);
+  *log2_exchange_q24 = least(log2_g_q24, limit_q24);
   return true;
 }
 

@@ -41,8 +41,8 @@ void add_formfactor(CLI::App& app, const Common& common) {
   command
       ->add_option(
           "--method", options->methods,
-          "M[,M...]: reference, closed-form, lambert:N, gauss:N, monte-carlo:SAMPLES, kernel, "
-          "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], auto[:ERROR], "
+          "M[,M...]: reference, closed-form, lambert:N, gauss:N, contour:N, monte-carlo:SAMPLES, "
+          "kernel, moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], auto[:ERROR], "
           "hemicube:R, legacy:NAME; with --scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");

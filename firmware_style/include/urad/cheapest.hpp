@@ -8,49 +8,17 @@
 //   nine points  exact sum at 3 x 3 points of each piece
 //   refined      exact sum at 3 x 3 points of cells, halved where they are in doubt
 //
-// in this order of cost. What a way is off by is estimated before it is gone, as a sum of
-// logarithms of what kernels know already:
-//
-//   log2 error = base + sum over the traits of weight log2(trait)
-//
-// with constants for each way and each class of pair, fitted to random pairs
-// (src/cheapest_models.hpp says how, and how well they hold on others). Sums correct their estimate
-// by how much they doubt themselves.
+// in this order of cost. What a way is off by is guessed by a small network before it is gone, or,
+// for sums, when it is (error_model.hpp). The networks are fitted to random pairs and moved until
+// what they say holds for 99 % of other pairs (src/cheapest_models.hpp).
 #pragma once
+#include "urad/error_model.hpp"
 #include "urad/form_factor.hpp"
 
 namespace urad {
 
 enum class Way : uint8_t { none, kernel, network, point, four_points, nine_points, refined };
 inline constexpr int kWays = 7;
-
-/// What errors follow. Logarithms to base 2 in Q7.8; "carrier" is the patch that carries the
-/// points.
-enum Trait {
-  trait_bend_sum,      ///< sum over both of 2 s + 12 a s + 4 |c s/(m.w)|: T2 if nothing cancelled
-  trait_bend,          ///< |log2 of the bend|
-  trait_rho,           ///< rho
-  trait_cosine_least,  ///< the smaller of p and q
-  trait_cosine_most,   ///< the larger
-  trait_fill,          ///< the smaller fill: slivers
-  trait_size,          ///< the carrier's s
-  trait_slant,         ///< s / (m.w)^2 of the carrier: its size by its height above the other
-  trait_doubt,         ///< a sum's doubt in itself, 0 before there is one
-  kTraits
-};
-
-enum class PairClass : uint8_t {
-  symmetric,  ///< two parallelograms: odd moments vanish
-  lopsided,   ///< at least one of another shape
-  near,       ///< rho above 0.35: walls that meet, large plates
-  cut,        ///< at least one cut at the other's plane
-};
-inline constexpr int kPairClasses = 4;
-
-struct PairTraits {
-  int16_t log2_q8[kTraits];
-  PairClass pair_class;
-};
 
 /// log2 G (Q7.24, or kNoExchange), how it was found, and the estimate of log2 of its relative error
 /// (Q7.8): the true error is below it for 99 % of pairs of any kind.
@@ -69,11 +37,16 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
                                const urad_net* net, int16_t log2_error_q8,
                                urad_counters* counters) noexcept;
 
+/// The same by other constants: what fits them.
+CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scene, const Patch& i,
+                               const Patch& j, const urad_net* net, int16_t log2_error_q8,
+                               urad_counters* counters) noexcept;
+
 /// One way, whatever it costs and however wrong it is, and the traits of the pair: what constants
-/// are fitted to. log2_doubt_q24: where a refined sum stops. False when the pair exchanges nothing,
-/// or only its sum can tell (`traits` is then undefined).
+/// are fitted to. halvings: of a refined sum. False when the pair exchanges nothing, or only its sum
+/// can tell (`traits` is then undefined).
 bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
-                 const urad_net* net, int32_t log2_doubt_q24, int32_t* log2_exchange_q24,
+                 const urad_net* net, int halvings, int32_t* log2_exchange_q24,
                  PairTraits* traits) noexcept;
 
 /// For PairSource::exchange: the cheapest way below source.log2_error_q8, counted in

@@ -41,31 +41,34 @@ uint32_t point_factor_uq30(const urad_scene& scene, const urad_point& x,
 int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const Patch& j,
                                   int points, uint32_t* sums = nullptr) noexcept;
 
-/// A sum and how much it doubts itself.
+/// What a sum knows of itself: log2 of each, by the sum.
+enum SumTrait {
+  sum_bend,     ///< second differences along both sides of the cells
+  sum_doubt,    ///< what decides which cell is halved next
+  sum_change,   ///< what the halvings that made the cells changed, their signs kept
+  sum_changes,  ///< the same without signs
+  sum_near,     ///< sums of the cells that an edge or vertex of the other is near to
+  sum_cells,    ///< log2 of the number of cells
+  kSumTraits
+};
+inline constexpr int16_t kTraitLimit_q8 = 24 * 256;
+
 struct LambertSum {
-  int32_t log2_exchange_q24;  ///< log2 G, or kNoExchange
-  int32_t log2_doubt_q24;  ///< log2 of an unscaled relative error: cheapest.hpp makes it an error
-  uint16_t point_sums;     ///< how many points it took
+  int32_t log2_exchange_q24;          ///< log2 G, or kNoExchange
+  uint16_t point_sums;                ///< how many points it took
+  int16_t log2_trait_q8[kSumTraits];  ///< by SumTrait, within +-24; -24 also for log2 0
 };
 
-/// What a sum without doubt says.
-inline constexpr int32_t kNoDoubt_q24 = -(64 << 24);
 inline constexpr int kMostRefinedCells = 64;
 
-/// One rule of points x points on each whole piece, 1 to 3 points.
-///   Doubt     with 3 points second differences b along both sides as b (b/sum)^3; with 2 points
-///             differences, by the sum; with 1 point there is none
-LambertSum lambert_whole(const urad_scene& scene, const Patch& i, const Patch& j,
-                         int points) noexcept;
-
-/// Pieces by 3 x 3 points; then the most doubtful cell is halved until all doubts together are at
-/// most 2^log2_doubt of the sum, or 64 cells have been measured [adaptive cubature: van Dooren and
-/// de Ridder 1976]. Carrier, cut and pieces as above: (i, j) and (j, i) give the same bits.
+/// One rule of points x points, 1 to 3, on every piece; then (3 points) the most doubtful cell is
+/// halved as often as asked for, or until 64 cells have been measured [adaptive cubature: van Dooren
+/// and de Ridder 1976]. Carrier, cut and pieces as above: (i, j) and (j, i) give the same bits.
 ///   Doubt     of a cell: its second differences b along both sides as b (b/sum)^3, but at least
 ///             2^-5 of its greatest factor where an edge or vertex of the other is near by the
 ///             cell's size, and at least 2^-2 of what the halving that made it changed
-///   Memory    24 cells of 32 bytes on the stack; the least doubtful drop out, their doubt stays
-LambertSum lambert_refined(const urad_scene& scene, const Patch& i, const Patch& j,
-                           int32_t log2_doubt_q24) noexcept;
+///   Memory    24 cells of 48 bytes on the stack; the least doubtful drop out, their doubt stays
+LambertSum lambert_refined(const urad_scene& scene, const Patch& i, const Patch& j, int points,
+                           int halvings) noexcept;
 
 }  // namespace urad

@@ -8,6 +8,8 @@
 #include "base/parallel.hpp"
 #include "method/engine_source.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/cheapest.hpp"
+#include "urad/lambert.hpp"
 
 namespace host {
 
@@ -31,25 +33,57 @@ double net_macs(const urad_net& net) {
   return kMomentMacs + kInputMacs + net.hidden * (net.inputs + 1) + net.inputs;
 }
 
-std::optional<double> multiply_adds(const TableMethod& method, const urad::CheapestPair* cheapest) {
+/// What the engine did for a pair.
+struct Work {
+  const urad_net* net = nullptr;  ///< run on it, or none
+  double points = 0;              ///< of exact sums
+};
+
+double legacy_macs(const urad_legacy_net& net) { return net.hidden * (24 + 1); }
+
+std::optional<double> multiply_adds(const TableMethod& method, const Work& work) {
   const std::string& name = method.spec.name;
   if (name == "kernel" || name == "fixed-kernel") return kCentreMacs;
   if (name == "moment" || name == "fixed-moment") return kMomentMacs;
   if (name == "lambert") return kPointMacs * std::pow(method.spec.number(1, 1, 32), 2);
   if (name == "gauss") return kCentreMacs * std::pow(method.spec.number(2, 1, 32), 4);
-  if (!cheapest) return std::nullopt;
-  const double kernel =
-      cheapest->way == urad::Way::network ? net_macs(*method.nets.general()) : kMomentMacs;
-  return kernel + kPointMacs * cheapest->point_sums;
+  if (name == "contour") return 16 * 6 * std::pow(method.spec.number(2, 1, 32), 2);
+  if (name == "legacy") return legacy_macs(method.nets.find_legacy(method.spec.argument));
+  if (name == "fixed-lambert") return kPointMacs * work.points;
+  if (name == "net" || name == "auto")
+    return (work.net ? net_macs(*work.net) : kMomentMacs) + kPointMacs * work.points;
+  return std::nullopt;
 }
 
 std::optional<double> instructions(const TableMethod& method, const InstructionCounts& counts,
-                                   const urad::CheapestPair* cheapest) {
-  if (!cheapest) return counts.per_pair(method.spec.name);
+                                   const Work& work) {
+  const std::string& name = method.spec.name;
+  if (name != "auto" && name != "fixed-lambert") return counts.per_pair(name);
   const auto moment = counts.per_pair("fixed-moment"), net = counts.per_pair("net");
   const auto point = counts.per_point();
   if (!moment || !net || !point) return std::nullopt;
-  return (cheapest->way == urad::Way::network ? *net : *moment) + *point * cheapest->point_sums;
+  const double kernel = name == "auto" ? (work.net ? *net : *moment) : 0;
+  return kernel + *point * work.points;
+}
+
+double points_of(const urad_scene& scene, const urad::Patch& p, const urad::Patch& q, int points) {
+  std::uint32_t sums = 0;
+  urad::lambert_exchange_log2_q24(scene, p, q, points, &sums);
+  return sums;
+}
+
+/// What auto thought of the pair.
+void judge(const TableMethod& method, const urad_scene& scene, const urad::Patch& p,
+           const urad::Patch& q, One* one, Work* work) {
+  urad_counters counters{};
+  const urad::CheapestPair pair = urad::cheapest_exchange(scene, p, q, method.nets.general(),
+                                                          auto_error_q8(method.spec), &counters);
+  // F as it is delivered, rounded to 32 bits.
+  one->estimate =
+      std::exp2(pair.log2_error_q8 / 256.0) + (one->f > 0 ? 0.5 / 4294967296.0 / one->f : 1);
+  one->way = pair.way;
+  work->points = pair.point_sums;
+  if (pair.way == urad::Way::network) work->net = method.nets.general();
 }
 
 std::vector<One> try_one(const PairSet& set, const TableMethod& method,
@@ -60,23 +94,18 @@ std::vector<One> try_one(const PairSet& set, const TableMethod& method,
   for (std::size_t k = 0; k < result.size(); ++k) {
     One& one = result[k];
     one = {set.exact[k], values.f[k], values.ns / double(result.size()), {}, {}, {}, {}};
-    urad::CheapestPair cheapest{};
-    if (is_auto) {
+    Work work;
+    if (method.spec.name == "net") work.net = &method.nets.find(method.spec.argument);
+    if (is_auto || method.spec.name == "fixed-lambert") {
       const FixedScene scene = FixedScene::of_polygons({set.pairs[k].p, set.pairs[k].q}, {});
-      urad_counters counters{};
-      cheapest = urad::cheapest_exchange(scene.pod(), urad::patch_at(scene.pod(), 0),
-                                         urad::patch_at(scene.pod(), 1), method.nets.general(),
-                                         auto_error_q8(method.spec), &counters);
-      // F as it is delivered, rounded to 32 bits.
-      one.estimate =
-          std::exp2(cheapest.log2_error_q8 / 256.0) + (one.f > 0 ? 0.5 / 4294967296.0 / one.f : 1);
-      one.way = cheapest.way;
+      const urad::Patch p = urad::patch_at(scene.pod(), 0), q = urad::patch_at(scene.pod(), 1);
+      if (is_auto)
+        judge(method, scene.pod(), p, q, &one, &work);
+      else
+        work.points = points_of(scene.pod(), p, q, method.spec.number(3, 1, 4));
     }
-    one.multiply_adds = multiply_adds(method, is_auto ? &cheapest : nullptr);
-    if (method.spec.name == "net")
-      one.multiply_adds = net_macs(method.nets.find(method.spec.argument));
-    if (request.instructions)
-      one.instructions = instructions(method, *request.instructions, is_auto ? &cheapest : nullptr);
+    one.multiply_adds = multiply_adds(method, work);
+    if (request.instructions) one.instructions = instructions(method, *request.instructions, work);
   }
   return result;
 }
@@ -233,12 +262,21 @@ std::string to_markdown(const MethodTrials& trials) {
 
 std::vector<TableMethod> trial_methods(const NetChoice& nets) {
   std::vector<TableMethod> methods;
-  for (const char* text :
-       {"kernel", "moment", "lambert:1", "lambert:2", "lambert:3", "lambert:4", "gauss:2",
-        "gauss:4", "fixed-kernel", "fixed-moment", "net", "fixed-lambert:1", "fixed-lambert:2",
-        "fixed-lambert:3", "auto:0.1", "auto", "auto:0.001"}) {
+  for (const char* text : {"kernel",          "moment",
+                           "lambert:1",       "lambert:2",
+                           "lambert:3",       "lambert:4",
+                           "gauss:2",         "gauss:4",
+                           "contour:2",       "contour:4",
+                           "closed-form",     "hemicube:64",
+                           "legacy:linear50", "fixed-kernel",
+                           "fixed-moment",    "net",
+                           "fixed-lambert:1", "fixed-lambert:2",
+                           "fixed-lambert:3", "auto:0.1",
+                           "auto:0.03",       "auto",
+                           "auto:0.003",      "auto:0.001"}) {
     const MethodSpec spec = parse_method(text);
     if (spec.name == "net" && !nets.general()) continue;
+    if (spec.name == "legacy" && !nets.shipped_legacy) continue;
     methods.push_back({spec.name == "net" ? "net, general" : text, spec, nets});
   }
   return methods;

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "form_factor/closed_form.hpp"
+#include "form_factor/contour_rule.hpp"
 #include "form_factor/gauss.hpp"
 #include "form_factor/kernel.hpp"
 #include "form_factor/lambert.hpp"
@@ -142,6 +143,12 @@ const std::map<std::string, Maker>& host_methods() {
          return exact([n](const Polygon& p, const Polygon& q) { return gauss_estimate(p, q, n); },
                       false);
        }},
+      {"contour",
+       [](const MethodSpec& spec) {
+         const int n = spec.number(2, 1, kMostPoints);
+         return exact([n](const Polygon& p, const Polygon& q) { return contour_estimate(p, q, n); },
+                      false);
+       }},
       {"monte-carlo",
        [](const MethodSpec& spec) {
          const int n = spec.number(10000, 16, kMostSamples);
@@ -161,7 +168,7 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
   if (maker == host_methods().end()) {
     throw UsageError(
         fmt::format("--method {}: unknown; known are reference, closed-form, lambert:N, "
-                    "gauss:N, monte-carlo:SAMPLES, kernel, "
+                    "gauss:N, contour:N, monte-carlo:SAMPLES, kernel, "
                     "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], "
                     "auto[:ERROR], hemicube:R, legacy:NAME",
                     spec.text()));

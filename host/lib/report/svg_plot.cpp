@@ -131,19 +131,6 @@ std::string axes_svg(const LogAxis& x, const LogAxis& y, const PlotAxes& axes) {
   return out;
 }
 
-/// Indices of the points that no other beats in both, by rising cost.
-std::vector<std::size_t> pareto_front(const std::vector<PlotPoint>& points) {
-  std::vector<std::size_t> order(points.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(points[a].cost, points[a].error) < std::pair(points[b].cost, points[b].error);
-  });
-  std::vector<std::size_t> front;
-  for (const std::size_t k : order)
-    if (front.empty() || points[k].error < points[front.back()].error) front.push_back(k);
-  return front;
-}
-
 std::string open_svg(double height, const std::string& title) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" "
@@ -164,6 +151,18 @@ const char* plot_colour(std::size_t number) {
   static constexpr std::array<const char*, 8> kColours{"#3b82c4", "#d97b29", "#2f9e6e", "#9a6dd7",
                                                        "#d1495b", "#1f9bb0", "#94891f", "#7a7f87"};
   return kColours[number % kColours.size()];
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<PlotPoint>& points) {
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(points[a].cost, points[a].error) < std::pair(points[b].cost, points[b].error);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t k : order)
+    if (front.empty() || points[k].error < points[front.back()].error) front.push_back(k);
+  return front;
 }
 
 std::string error_cost_svg(const std::vector<PlotPoint>& all, const PlotAxes& axes) {

@@ -25,6 +25,9 @@ struct PlotAxes {
 /// point can be shown.
 std::string error_cost_svg(const std::vector<PlotPoint>& points, const PlotAxes& axes);
 
+/// Indices of the points that no other beats in both, by rising cost.
+std::vector<std::size_t> pareto_front(const std::vector<PlotPoint>& points);
+
 struct BarPart {
   std::string label;
   std::uint64_t value = 0;
