@@ -47,6 +47,16 @@ Image sheet_of(const std::vector<Image>& plates) {
   return sheet;
 }
 
+/// A scale as it is printed, so that readers of the table have the one that was used.
+double printed(double scale) { return std::stod(fmt::format("{:.4g}", scale)); }
+
+std::vector<Vec3> one_channel(std::vector<Vec3> b, int channel) {
+  for (Vec3& x : b)
+    for (int c = 0; c < 3; ++c)
+      if (c != channel) x[c] = 0;
+  return b;
+}
+
 }  // namespace
 
 std::vector<ResultTable> reproduce_figure(const ReproduceRequest& request,
@@ -65,8 +75,8 @@ std::vector<ResultTable> reproduce_figure(const ReproduceRequest& request,
   options.width = options.height = kPlate;
   options.threads = request.threads;
   const View view(cube.scene, options);
-  const double white = white_level(cube.scene, exact);
-  const double scale = view.difference_scale(network, exact, Shading::kFlat, white);
+  const double white = printed(white_level(cube.scene, exact));
+  const double scale = printed(view.difference_scale(network, exact, Shading::kFlat, white));
   std::vector<Image> plates;
   for (const auto* b : {&exact, &hemicube, &network})
     plates.push_back(view.picture(*b, Shading::kFlat, white));
@@ -90,14 +100,18 @@ std::vector<ResultTable> reproduce_figure(const ReproduceRequest& request,
                        percent(relative_max(cube.scene, b, exact))};
   };
   const auto add = [&](const char* shows, double unit, std::vector<std::string> figures) {
-    table.rows.push_back({std::to_string(table.rows.size() + 1), shows, csv_number(unit),
+    table.rows.push_back({std::to_string(table.rows.size() + 1), shows, fmt::format("{:.4g}", unit),
                           std::move(figures[0]), std::move(figures[1])});
   };
   add("analytic", white, errors(exact));
   add("hemicube", white, errors(hemicube));
   add("network", white, errors(network));
-  for (const char* shows : {"red error", "green error", "blue error"})
-    add(shows, scale, errors(network));
+  const char* const shows[] = {"red error", "green error", "blue error"};
+  for (int c = 0; c < 3; ++c) {
+    const std::vector<Vec3> b = one_channel(network, c), right = one_channel(exact, c);
+    add(shows[c], scale,
+        {percent(relative_rms(cube.scene, b, right)), percent(relative_max(cube.scene, b, right))});
+  }
   table.notes = {
       fmt::format(
           "Scale: the radiosity shown white in plates 1 to 3, the error shown white (black: its "
