@@ -83,8 +83,12 @@ TEST_CASE("a grid made on the chip passes the scene check and enumerates its pat
   REQUIRE(urad::grid_make({-300, 0, 0}, {100, 0, 0}, {0, 50, 0}, 3, 2, &grid) == urad::Status::ok);
   const urad_surface surface{0, 6, 0, URAD_SURFACE_PLANAR, &grid, nullptr};
   const urad_material material{};
-  const urad_scene scene{URAD_SCENE_ABI, 0,         6,       1,       1,       0, 0,
-                         &surface,       &material, nullptr, nullptr, nullptr, 0};
+  urad_scene scene{};
+  scene.abi = URAD_SCENE_ABI;
+  scene.patch_count = 6;
+  scene.surface_count = scene.material_count = 1;
+  scene.surface = &surface;
+  scene.material = &material;
   CHECK(urad::scene_check(&scene) == urad::Status::ok);
   const urad::Patch patch = urad::patch_at(scene, 4);
   CHECK(patch.centroid.x == -150);

@@ -133,7 +133,7 @@ TEST_CASE("200 occluded pairs: F to 2e-3, never above the open one, blocked exac
     urad_counters one{};
     const Answer answer = by_engine(pair, &one);
     CHECK(answer.f <= answer.open);
-    if (answer.open == 0 || one.rays == 0) continue;  // do not face, or nothing between them
+    if (answer.open == 0 || one.rays + one.shut_unseen == 0) continue;  // nothing between them
     ++found;
     counters.rays += one.rays;
     const double off = answer.f - exact;

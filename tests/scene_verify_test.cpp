@@ -33,6 +33,7 @@ TEST_CASE("every single-bit fault of a scene is found: grids, polygon lists, blo
       {{{{0.2, 0.2, 0.5}, {0.8, 0.2, 0.5}, {0.5, 0.8, 0.5}}, {}}});
   plates.set_scale({1, 0.5});
   CHECK(missed_bits(plates) == 0);
+  CHECK(missed_bits(host::FixedScene(host::load_scene("louvre", {1, 0}))) == 0);
 }
 
 TEST_CASE("null is refused, and so is another scene's CRC") {

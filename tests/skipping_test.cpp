@@ -65,6 +65,8 @@ TEST_CASE("one skip of the pairs off: the same bits, and as much more work as it
     const urad_counters all = off(urad::skip_off_blockers);
     CHECK(all.blockers_kept == c.blockers_kept + c.blockers_rejected);
     CHECK(all.rays == c.rays + c.rays_spared);
+    CHECK(all.blocked == c.blocked);
+    CHECK(all.shut_unseen == 0);
   }
 }
 
@@ -87,8 +89,9 @@ TEST_CASE("every counter of a sweep counts in one scene and not in another") {
   using Field = std::uint32_t urad_counters::*;
   const auto count = [](Field field, const Swept& swept) { return swept.count().*field; };
   const Swept gallery = sweep("gallery", 2, "net"), whole = sweep("gallery", 1, "net"),
-              room = sweep("room", 2, "net"), fine = sweep("gallery", 6, "net"),
-              open = sweep("cornell", 2, "hybrid:16"), closed = sweep("room", 2, "hybrid:16"),
+              room = sweep("room", 2, "net"), louvre = sweep("louvre", 2, "net"),
+              fine = sweep("gallery", 6, "net"), open = sweep("cornell", 2, "hybrid:16"),
+              closed = sweep("room", 2, "hybrid:16"),
               cut = sweep("gallery", 6, "net", {.bound = 0.0625}),
               whole_cut = sweep("gallery", 1, "net", {.bound = 0.0625});
   struct Row {
@@ -104,6 +107,7 @@ TEST_CASE("every counter of a sweep counts in one scene and not in another") {
                          Row{"far_pairs", &urad_counters::far_pairs, fine, whole},
                          Row{"rays_spared", &urad_counters::rays_spared, room, gallery},
                          Row{"blockers_rejected", &urad_counters::blockers_rejected, room, gallery},
+                         Row{"shut_unseen", &urad_counters::shut_unseen, louvre, gallery},
                          Row{"faces_empty", &urad_counters::faces_empty, open, closed},
                          Row{"rows_empty", &urad_counters::rows_empty, open, closed}}) {
     CAPTURE(row.name);

@@ -76,7 +76,9 @@ Answer ray_in_double(const urad_scene& scene, const urad_blocker& blocker, const
     const Vec q = to_vec(scene.vertex[blocker.first_vertex + (k + 1) % blocker.vertex_count]);
     const double along = std::clamp(glm::dot(at - p, q - p) / glm::dot(q - p, q - p), 0.0, 1.0);
     const double grazing = 1 + glm::length(b - a) / std::fabs(da - db);
-    if (glm::length(at - p - along * (q - p)) < 6 * grazing) answer.doubtful = true;
+    // Two units off in sums of coordinates (sqrt 3), beside an edge (sqrt 2), seen along one axis
+    // (sqrt 3): 8.5 of them.
+    if (glm::length(at - p - along * (q - p)) < 9 * grazing) answer.doubtful = true;
     if ((p[v] > at[v]) != (q[v] > at[v]) &&
         p[u] + (at[v] - p[v]) / (q[v] - p[v]) * (q[u] - p[u]) > at[u]) {
       answer.blocked = !answer.blocked;

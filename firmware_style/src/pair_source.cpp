@@ -2,6 +2,8 @@
 #include "urad/form_factor.hpp"
 #include "urad/log2.hpp"
 #include "urad/visibility.hpp"
+#include "visibility_candidates.hpp"
+#include "visibility_row.hpp"
 
 namespace urad {
 
@@ -69,21 +71,48 @@ class Allowance {
   SmallExchange limit_{kNoExchange, kNoExchange};
 };
 
-uint32_t seen_uq16(const PairSource& source, const Patch& i, const Patch& j,
-                   int32_t log2_g_q24) noexcept {
-  if (source.rays == 0) return kAllVisible_uq16;
-  if ((source.scene->flags & URAD_SCENE_CONVEX) && !(source.skips_off & skip_off_convex)) {
-    ++source.counters->skipped_convex;
-    return kAllVisible_uq16;
-  }
-  const bool reject = !(source.skips_off & skip_off_blockers);
-  if (source.error_uq32 == 0) {
-    return visible_fraction_uq16(*source.scene, i, j, source.rays, true, source.counters, reject);
-  }
+/// Where the visible part of a run's pairs comes from; neither: everything is seen.
+struct Sight {
+  RunBlockers* blockers;
+  VisibilityRow* exported;
+};
+
+uint32_t seen_by_rays_uq16(const PairSource& source, RunBlockers& run, const Patch& i,
+                           const Patch& j, int32_t log2_g_q24) noexcept {
+  if (source.error_uq32 == 0)
+    return visible_fraction_uq16(run, j, source.rays, true, source.counters);
   const int32_t a_i = i.shape->log2_area_q24, a_j = j.shape->log2_area_q24;
   const uint32_t f_uq32 = form_factor_uq32(log2_g_q24, a_i < a_j ? a_i : a_j);
-  return adaptive_fraction_uq16(*source.scene, i, j, {source.rays, source.depth, source.error_uq32},
-                                f_uq32, source.counters, reject);
+  return adaptive_fraction_uq16(run, j, {source.rays, source.depth, source.error_uq32}, f_uq32,
+                                source.counters);
+}
+
+void fill_run(PairSource& source, const Patch& from, Side side, uint16_t first, uint16_t count,
+              const Sight& sight, uint32_t* f_uq32) noexcept {
+  const urad_scene& scene = *source.scene;
+  Allowance allowance(&source, from, first, count);
+  Patch receiver = patch_at(scene, first);
+  for (uint16_t k = 0; k < count; ++k) {
+    f_uq32[k] = 0;
+    uint32_t seen_uq16 = sight.exported ? sight.exported->next_uq16() : kAllVisible_uq16;
+    if (receiver.index != from.index) {
+      const int32_t scale = scale_q24(scene, from.index) + scale_q24(scene, receiver.index);
+      const int32_t log2_g_q24 = exchange_q24(source, from, receiver, side, allowance.limit(scale));
+      allowance.book(scale);
+      if (log2_g_q24 != kNoExchange) {
+        const uint32_t f = form_factor_uq32(log2_g_q24 + scale, from.shape->log2_area_q24);
+        if (sight.exported) {
+          ++source.counters->sights;
+          source.counters->blocked += seen_uq16 == 0;
+        }
+        if (sight.blockers)
+          seen_uq16 = seen_by_rays_uq16(source, *sight.blockers, from, receiver, log2_g_q24);
+        f_uq32[k] = uint32_t((uint64_t{f} * seen_uq16 + 0x8000u) >> 16);
+        source.counters->skipped_convex += !sight.exported && !sight.blockers && source.rays;
+      }
+    }
+    if (k + 1 < count) patch_advance(&receiver);
+  }
 }
 
 }  // namespace
@@ -110,21 +139,17 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
     source.counters->skipped_behind += count;
     return no_light(f_uq32, count);
   }
-  Allowance allowance(&source, from, first, count);
-  Patch receiver = patch_at(scene, first);
-  for (uint16_t k = 0; k < count; ++k) {
-    f_uq32[k] = 0;
-    if (receiver.index != shooter) {
-      const int32_t scale = scale_q24(scene, shooter) + scale_q24(scene, receiver.index);
-      const int32_t log2_g_q24 = exchange_q24(source, from, receiver, side, allowance.limit(scale));
-      allowance.book(scale);
-      if (log2_g_q24 != kNoExchange) {
-        const uint32_t f = form_factor_uq32(log2_g_q24 + scale, from.shape->log2_area_q24);
-        const uint32_t seen = seen_uq16(source, from, receiver, log2_g_q24);
-        f_uq32[k] = uint32_t((uint64_t{f} * seen + 0x8000u) >> 16);
-      }
-    }
-    if (k + 1 < count) patch_advance(&receiver);
+  const bool convex = (scene.flags & URAD_SCENE_CONVEX) && !(source.skips_off & skip_off_convex);
+  const urad_visibility* const exported = visibility_of(scene);
+  if (convex || (!exported && source.rays == 0)) {
+    fill_run(source, from, side, first, count, {nullptr, nullptr}, f_uq32);
+  } else if (exported) {
+    VisibilityRow row(*exported, shooter, first);
+    fill_run(source, from, side, first, count, {nullptr, &row}, f_uq32);
+  } else {
+    const bool reject = !(source.skips_off & skip_off_blockers);
+    RunBlockers run(scene, from, to.grid, reject, &source.last_blocker);
+    fill_run(source, from, side, first, count, {&run, nullptr}, f_uq32);
   }
   return URAD_OK;
 }

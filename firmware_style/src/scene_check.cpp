@@ -1,3 +1,4 @@
+#include "scene_check_sight.hpp"
 #include "urad/patch.hpp"
 #include "urad/vec.hpp"
 
@@ -94,7 +95,8 @@ bool good(const urad_scene& scene, const urad_blocker& blocker) noexcept {
 
 Status scene_check(const urad_scene* scene) noexcept {
   if (!scene) return Status::bad_scene;
-  if (scene->abi != URAD_SCENE_ABI || scene->patch_count == 0 || !scene->surface ||
+  const bool sight = scene->abi == URAD_SCENE_ABI_SIGHT;
+  if ((scene->abi != URAD_SCENE_ABI && !sight) || scene->patch_count == 0 || !scene->surface ||
       !scene->material) {
     return Status::bad_scene;
   }
@@ -114,6 +116,7 @@ Status scene_check(const urad_scene* scene) noexcept {
   for (uint16_t b = 0; b < scene->blocker_count; ++b) {
     if (!good(*scene, scene->blocker[b])) return Status::bad_scene;
   }
+  if (sight && !good_sight(*scene)) return Status::bad_scene;
   if (scene->log2_scale_q24) {
     for (uint16_t k = 0; k < scene->patch_count; ++k) {
       if (magnitude(scene->log2_scale_q24[k]) > uint32_t{8} << 24) return Status::bad_scene;

@@ -34,6 +34,13 @@ class Numbers : public Crc32 {
     add(b.normal_q30), add(b.low), add(b.high);
     word(b.first_vertex), half(b.vertex_count), half(b.surface);
   }
+  void add(const urad_bounds& b) noexcept {
+    add(b.low), add(b.high), half(b.first), half(b.end), half(b.next), half(b.reserved);
+  }
+  void add(const urad_visibility& v) noexcept {
+    for (uint16_t k = 0; k < v.patch_count; ++k) word(v.row[k]);
+    for (uint32_t k = 0; k < v.byte_count; ++k) byte(v.code[k]);
+  }
 };
 
 uint32_t fields_crc32(const urad_scene& scene) noexcept {
@@ -43,6 +50,12 @@ uint32_t fields_crc32(const urad_scene& scene) noexcept {
   crc.half(scene.material_count), crc.half(scene.blocker_count);
   crc.word(scene.vertex_count), crc.word(scene.log2_power_q24);
   crc.byte(scene.log2_scale_q24 ? 1 : 0);
+  if (scene.abi < URAD_SCENE_ABI_SIGHT) return crc.value();
+  crc.half(scene.bounds_count), crc.half(scene.reserved);
+  crc.byte(scene.visibility ? 1 : 0);
+  if (const urad_visibility* v = scene.visibility) {
+    crc.half(v->patch_count), crc.byte(v->bits), crc.byte(v->reserved), crc.word(v->byte_count);
+  }
   return crc.value();
 }
 
@@ -54,6 +67,9 @@ uint32_t tables_crc32(const urad_scene& scene) noexcept {
   for (uint32_t k = 0; k < scene.vertex_count; ++k) crc.add(scene.vertex[k]);
   for (uint16_t k = 0; scene.log2_scale_q24 && k < scene.patch_count; ++k)
     crc.word(scene.log2_scale_q24[k]);
+  if (scene.abi < URAD_SCENE_ABI_SIGHT) return crc.value();
+  for (uint16_t k = 0; k < scene.bounds_count; ++k) crc.add(scene.bounds[k]);
+  if (scene.visibility) crc.add(*scene.visibility);
   return crc.value();
 }
 

@@ -12,9 +12,6 @@ namespace {
 
 constexpr int kFactorTries = 8;  // rays by the cosine law per ray asked for, where they do
 
-constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
-constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a < b ? b : a; }
-
 /// (tr M_i + tr M_j) / 2 with 31 bits, whatever its size.
 uint64_t half_spread_sum(const Patch& i, const Patch& j) noexcept {
   const int32_t log2_half_q24 = log2_spread_sum_q24(i, j) - (1 << 24);
@@ -45,10 +42,19 @@ NearMean near_mean(const Patch& i, const PatchSampler& on_i, const Patch& j,
 }  // namespace
 
 Scaled weight_of(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept {
-  const int64_t p = dot(i.normal_q30, r), q = -dot(j.normal_q30, r);
+  const int64_t p = sparse_dot(i.normal_q30, r), q = -sparse_dot(j.normal_q30, r);
   if (p <= 0 || q <= 0) return {0, 0};
-  const Scaled r2 = scaled(uint64_t(dot(r, r)));
-  return scaled(uint64_t(p)) / r2 * (scaled(uint64_t(q)) / r2);
+  const uint32_t x = magnitude(r.x), y = magnitude(r.y), z = magnitude(r.z);
+  const int drop = greatest(top_bit(x | y | z) - 14, 1);
+  const auto square = [drop](uint32_t length) {
+    const uint32_t l = (length + (1u << (drop - 1))) >> drop;
+    return l * l;
+  };
+  const int32_t log2_r2_q24 = log2_q24(square(x) + square(y) + square(z)) + drop * (2 << 24);
+  const int32_t log2_w_q24 =
+      log2_q24(uint64_t(p)) - log2_r2_q24 + (log2_q24(uint64_t(q)) - log2_r2_q24);
+  const int32_t whole = shift_down(log2_w_q24, 24);
+  return {exp2_uq(log2_w_q24 - whole * (1 << 24), 31), int(whole) - 31};
 }
 
 int32_t log2_spread_sum_q24(const Patch& i, const Patch& j) noexcept {
@@ -63,17 +69,33 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept {
          log2_q24(rho_uq16) - (16 << 24);
 }
 
-uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const Patch& other,
-                               uint16_t rays, bool weighted, urad_counters* counters,
-                               bool reject) noexcept {
-  const bool in_order = one.index <= other.index;
-  const Patch &i = in_order ? one : other, &j = in_order ? other : one;
+uint32_t without_rays(const Candidates& candidates, uint32_t rays,
+                      urad_counters* counters) noexcept {
+  candidates.count(counters);
+  if (!candidates.shut() && !candidates.empty()) return kAskRays;
+  counters->rays_spared += rays;
+  if (!candidates.shut()) return kAllVisible_uq16;
+  ++counters->blocked;
+  ++counters->shut_unseen;
+  return 0;
+}
+
+uint32_t without_a_ray(const urad_scene& scene, const Patch& i, const Patch& j) noexcept {
+  uint16_t last = 0;
+  RunBlockers run(scene, i, nullptr, true, &last);
+  const Candidates candidates(run, j);
+  return candidates.empty() && !candidates.shut() ? kAllVisible_uq16 : 0;
+}
+
+uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t rays,
+                               bool weighted, urad_counters* counters) noexcept {
+  const urad_scene& scene = run.scene();
+  const bool turned = run.shooter().index > receiver.index;
+  const Patch &i = turned ? receiver : run.shooter(), &j = turned ? run.shooter() : receiver;
   const uint16_t wanted = rays < 1 ? 1 : rays > kMaxRays ? kMaxRays : rays;
-  Candidates candidates(scene, i, j, reject, counters);
-  if (candidates.empty()) {
-    counters->rays_spared += wanted;
-    return kAllVisible_uq16;
-  }
+  Candidates candidates(run, receiver);
+  const uint32_t known = without_rays(candidates, wanted, counters);
+  if (known != kAskRays) return known;
 
   // Patches that may touch: weights of points closer than this are as great as they like.
   const bool touching = weighted && closer_than(i, j, kTouching_uq16);
@@ -95,22 +117,27 @@ uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const 
     if (weight.mantissa == 0) continue;
     ++weighed;
     if (!weighted) weight = {0x80000000u, 0};
-    sums.add(weight, !candidates.stop(a, b, counters), uint64_t(dot(r, r)) < near2);
+    sums.add(weight, !candidates.stop(a, b, turned, counters),
+             touching && uint64_t(dot(r, r)) < near2);
   }
   counters->rays += wanted;
+  const uint32_t seen_uq16 = sums.none() ? without_a_ray(scene, i, j) : 0;
   if (sums.all_shut()) {
-    ++counters->blocked;
-    return 0;
+    counters->blocked += seen_uq16 == 0;
+    return seen_uq16;
   }
   if (sums.all_open()) return kAllVisible_uq16;
   if (touching) {
     struct Asked {
       Candidates* candidates;
+      bool turned;
       urad_counters* counters;
-    } asked{&candidates, counters};
+    } asked{&candidates, turned, counters};
+    // Rays of near_mean() leave the smaller patch, which may be either.
+    if (i.shape->log2_area_q24 > j.shape->log2_area_q24) asked.turned = !turned;
     const Stop stop = [](void* context, const urad_point& a, const urad_point& b) {
       const Asked& to = *static_cast<Asked*>(context);
-      return to.candidates->stop(a, b, to.counters);
+      return to.candidates->stop(a, b, to.turned, to.counters);
     };
     const NearMean mean = near_mean(i, on_i, j, on_j, near2, kFactorTries * wanted, stop, &asked);
     const int32_t log2_made_q24 = log2_q24(uint32_t(made));
@@ -118,6 +145,14 @@ uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& one, const 
     sums.add_near(all(mean.log2_open_q24), all(mean.log2_shut_q24));
   }
   return sums.fraction_uq16();
+}
+
+uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
+                               uint16_t rays, bool weighted, urad_counters* counters,
+                               bool reject) noexcept {
+  uint16_t last = 0;
+  RunBlockers run(scene, i, nullptr, reject, &last);
+  return visible_fraction_uq16(run, j, rays, weighted, counters);
 }
 
 }  // namespace urad

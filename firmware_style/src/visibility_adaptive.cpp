@@ -43,7 +43,7 @@ struct Asked {
 };
 
 Asked ask(const Pieces& pieces, const Part& part, int rays, Sequence* sequence,
-          Candidates* candidates, urad_counters* counters) noexcept {
+          Candidates* candidates, bool turned, urad_counters* counters) noexcept {
   Asked asked;
   int weighed = 0;
   for (int tries = (part.cuts() ? 4 : 16) * rays; weighed < rays && tries > 0; --tries) {
@@ -55,7 +55,7 @@ Asked ask(const Pieces& pieces, const Part& part, int rays, Sequence* sequence,
     const Scaled weight = weight_of(*pieces.patch[0]->shape, *pieces.patch[1]->shape, b - a);
     if (weight.mantissa == 0) continue;
     ++weighed;
-    asked.sums.add(weight, !candidates->stop(a, b, counters), false);
+    asked.sums.add(weight, !candidates->stop(a, b, turned, counters), false);
   }
   counters->rays += uint32_t(rays);
   return asked;
@@ -71,28 +71,32 @@ void collect(const Part& part, const Asked& from, Sums* to) noexcept {
   }
 }
 
-constexpr int greatest(int a, int b) noexcept { return a < b ? b : a; }
-
 constexpr int clamped(int x, int low, int high) noexcept {
   return x < low ? low : x > high ? high : x;
 }
 
 }  // namespace
 
-uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& one, const Patch& other,
+uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
                                 const AdaptiveRays& plan, uint32_t f_uq32, urad_counters* counters,
                                 bool reject) noexcept {
+  uint16_t last = 0;
+  RunBlockers run(scene, i, nullptr, reject, &last);
+  return adaptive_fraction_uq16(run, j, plan, f_uq32, counters);
+}
+
+uint32_t adaptive_fraction_uq16(RunBlockers& run, const Patch& receiver, const AdaptiveRays& plan,
+                                uint32_t f_uq32, urad_counters* counters) noexcept {
   const int rays = clamped(plan.rays, 4, 256), depth = clamped(plan.depth, 0, kMaxDepth);
-  if (closer_than(one, other, kTouching_uq16)) {
-    return visible_fraction_uq16(scene, one, other, uint16_t(rays), true, counters, reject);
+  if (closer_than(run.shooter(), receiver, kTouching_uq16)) {
+    return visible_fraction_uq16(run, receiver, uint16_t(rays), true, counters);
   }
-  const bool in_order = one.index <= other.index;
-  const Patch &i = in_order ? one : other, &j = in_order ? other : one;
-  Candidates candidates(scene, i, j, reject, counters);
-  if (candidates.empty()) {
-    counters->rays_spared += uint32_t(rays);
-    return kAllVisible_uq16;
-  }
+  const urad_scene& scene = run.scene();
+  const bool turned = run.shooter().index > receiver.index;
+  const Patch &i = turned ? receiver : run.shooter(), &j = turned ? run.shooter() : receiver;
+  Candidates candidates(run, receiver);
+  const uint32_t known = without_rays(candidates, uint32_t(rays), counters);
+  if (known != kAskRays) return known;
   const PatchSampler on_i(scene, i), on_j(scene, j);
   const Pieces pieces{{&i, &j}, {&on_i, &on_j}};
   Sequence sequence(i.index, j.index);
@@ -108,7 +112,7 @@ uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& one, const
   while (parts > 0) {
     const Part part = stack[--parts];
     const int log2_rays = part.cuts() ? log2_later : log2_first;
-    const Asked asked = ask(pieces, part, 1 << log2_rays, &sequence, &candidates, counters);
+    const Asked asked = ask(pieces, part, 1 << log2_rays, &sequence, &candidates, turned, counters);
     const bool agree = asked.sums.all_open() || asked.sums.all_shut();
     if (agree || part.cuts() == depth || f_uq32 >> (2 * part.cuts()) <= plan.error_uq32) {
       collect(part, asked, &sums);
@@ -123,9 +127,10 @@ uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& one, const
       next.y[side] = uint8_t(2 * part.y[side] + (quarter >> 1));
     }
   }
+  const uint32_t seen_uq16 = sums.none() ? without_a_ray(scene, i, j) : 0;
   if (sums.all_shut()) {
-    ++counters->blocked;
-    return 0;
+    counters->blocked += seen_uq16 == 0;
+    return seen_uq16;
   }
   if (sums.all_open()) return kAllVisible_uq16;
   return sums.fraction_uq16();

@@ -1,42 +1,12 @@
-// visibility_rays.hpp -- blockers worth asking, and sums of what rays bring, for fixed and adaptive
-// numbers of rays.
+// visibility_rays.hpp -- sums of what rays bring, for fixed and adaptive numbers of rays.
 #pragma once
 #include "urad/log2.hpp"
 #include "urad/ratio.hpp"
 #include "urad/visibility.hpp"
+#include "visibility_candidates.hpp"
 #include "visibility_sample.hpp"
 
 namespace urad {
-
-/// Blockers that may stand between two patches: the first few by number, any others from `rest` on.
-class Candidates {
- public:
-  Candidates(const urad_scene& scene, const Patch& i, const Patch& j, bool reject,
-             urad_counters* counters) noexcept;
-
-  bool empty() const noexcept { return count_ == 0 && !any_; }
-
-  /// The blocker that stopped a ray is asked first about the next.
-  bool stop(const urad_point& a, const urad_point& b, urad_counters* counters) noexcept;
-
- private:
-  struct Listed {
-    uint16_t blocker;
-    int8_t side_i, side_j;  // of its plane that the whole patch lies on; 0: both
-  };
-  /// Whether the patches lie on both sides of the blocker's plane; fills in the sides.
-  bool astride(const urad_blocker& blocker, Listed* entry) const noexcept;
-  /// Leaves out those beside the common box, and those whose plane the patches do not lie astride.
-  void list() noexcept;
-
-  static constexpr int kListed = 24;
-  const urad_scene& scene_;
-  const Patch &i_, &j_;
-  uint16_t rest_;
-  bool any_;  // rays are made whatever the bounds say
-  int count_ = 0;
-  Listed listed_[kListed];
-};
 
 inline constexpr int32_t kNoHit = INT32_MIN;
 // Logs of near weights are this much less, which keeps them in 32 bits.
@@ -62,6 +32,7 @@ class Sums {
 
   bool all_open() const noexcept { return shut_count_ == 0; }
   bool all_shut() const noexcept { return open_count_ == 0; }
+  bool none() const noexcept { return open_count_ + shut_count_ == 0; }
 
   /// Adds what near weights come to by other means, log2 in Q7.24 less kNearBits, or kNoHit.
   void add_near(int32_t log2_open_q24, int32_t log2_shut_q24) noexcept {
@@ -100,7 +71,15 @@ class Sums {
   uint32_t open_count_ = 0, shut_count_ = 0;
 };
 
-/// cos cos / r^2 times 2^60: (n_i . r)(-n_j . r) / r^4. Nothing when one end looks away.
+/// The answer of a pair that needs no ray, counted as so many rays spared; kAskRays when it needs them.
+inline constexpr uint32_t kAskRays = ~0u;
+uint32_t without_rays(const Candidates& candidates, uint32_t rays,
+                      urad_counters* counters) noexcept;
+
+/// The answer of a pair of which no ray could be made: nothing is seen where a blocker may stand between.
+uint32_t without_a_ray(const urad_scene& scene, const Patch& i, const Patch& j) noexcept;
+
+/// cos cos / r^2 times 2^60: (n_i . r)(-n_j . r) / r^4, to 2^-13. Nothing when one end looks away.
 Scaled weight_of(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept;
 
 /// Where patches may touch: rho above this. Weights of points there are as great as they like.

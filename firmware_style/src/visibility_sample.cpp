@@ -112,8 +112,11 @@ bool PatchSampler::point(uint32_t x_uq31, uint32_t y_uq31, urad_point* p) const 
     x_uq31 = 0x7FFFFFFFu - x_uq31;
     y_uq31 = 0x7FFFFFFFu - y_uq31;
   }
+  const int32_t x_uq16 = int32_t(x_uq31 >> 15), y_uq16 = int32_t(y_uq31 >> 15);
   const auto at = [=](int32_t origin, int32_t a, int32_t b) {
-    return origin + int32_t(round_shift(part_q31(x_uq31, a) + part_q31(y_uq31, b), 31));
+    if (a) origin += mul_round(a, x_uq16, 16);
+    if (b) origin += mul_round(b, y_uq16, 16);
+    return origin;
   };
   *p = {at(origin_.x, along_x_.x, along_y_.x), at(origin_.y, along_x_.y, along_y_.y),
         at(origin_.z, along_x_.z, along_y_.z)};

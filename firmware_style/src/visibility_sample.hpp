@@ -15,6 +15,8 @@ class Flat {
     return drop_ == 0 ? p.x : drop_ == 1 ? p.y : p.z;
   }
   urad_point join(int32_t u, int32_t v, int32_t dropped) const noexcept;
+  /// u, v and the dropped axis make a left-handed frame.
+  bool is_mirror() const noexcept { return drop_ == 1; }
 
  private:
   int drop_;

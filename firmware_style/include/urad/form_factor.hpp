@@ -67,13 +67,14 @@ struct PairSource;
 /// log2 G of a pair for a source that has a way of its own, as exchange_log2_q24().
 using PairExchange = int32_t (*)(const PairSource& source, const Patch& i, const Patch& j) noexcept;
 
-/// A source (source.h) that evaluates pairs, times the visible fraction by rays where the scene is
-/// not convex.
+/// A source (source.h) that evaluates pairs, times the visible fraction where the scene is not
+/// convex: the exported one, or by rays.
 struct PairSource {
   const urad_scene* scene;
   const urad_net* net;  ///< null: kernel alone
   Kernel kernel;
-  uint16_t rays;            ///< visibility rays per pair; 0: ignore blockers
+  uint16_t rays;            ///< visibility rays per pair; 0: ignore blockers. None with exported
+                            ///< visibility, which is read whatever stands here
   uint32_t skips_off;       ///< SkipOff bits
   urad_counters* counters;  ///< never null
   uint8_t points = 0;  ///< 1 .. 4: every pair by the exact sum at so many points squared; 0: none
@@ -85,6 +86,7 @@ struct PairSource {
   /// AdaptiveRays; `rays` the most at a time). 0: `rays` for every pair.
   uint32_t error_uq32 = 0;
   uint8_t depth = 0;
+  uint16_t last_blocker = 0;  ///< that stopped a ray: the first to be asked about the next
 
   /// Bounded contribution, the one skip that changes light: factors of at most 8 bound /
   /// patch_count are taken as 0 before network and rays, as long as those of the row together (each

@@ -8,7 +8,8 @@
 #define URAD_SCENE_H
 #include <stdint.h>
 
-#define URAD_SCENE_ABI 1
+#define URAD_SCENE_ABI 1       /* the fields up to log2_power_q24: no others are looked at */
+#define URAD_SCENE_ABI_SIGHT 2 /* those of sight, too: bounds of blockers, exported visibility */
 #define URAD_COORDINATE_MAX 536870912 /* 2^29 */
 
 typedef struct urad_point {
@@ -70,13 +71,35 @@ typedef struct urad_blocker {
   uint16_t surface;      /* the surface it belongs to; 0xFFFF: none */
 } urad_blocker;
 
+/* A box around blockers first .. end-1, and around the boxes of their parts, which follow it. Whoever misses it goes
+ * on at box `next`: the first one behind that holds none of them. */
+typedef struct urad_bounds {
+  urad_point low, high;
+  uint16_t first, end;
+  uint16_t next;     /* bounds_count: none */
+  uint16_t reserved; /* 0 */
+} urad_bounds;
+
+/* Which part of every pair gets past the blockers, for chips that cannot afford rays. A row holds what a shooter
+ * sees of patches 0 .. patch_count-1: codes 0 (nothing) .. 2^bits - 1 (all), the lowest bits of a byte first; or
+ * runs of equal codes, a byte each: the code in the highest bits, the length less one below. */
+typedef struct urad_visibility {
+  uint16_t patch_count; /* that of the scene */
+  uint8_t bits;         /* 1 or 4 */
+  uint8_t reserved;     /* 0 */
+  uint32_t byte_count;
+  const uint32_t *row;  /* [patch_count] first byte of the row, and URAD_VISIBILITY_RUNS */
+  const uint8_t *code;  /* [byte_count] */
+} urad_visibility;
+#define URAD_VISIBILITY_RUNS 0x80000000u
+
 enum {
   URAD_SCENE_CONVEX = 1, /* every pair that faces each other sees each other: no visibility at all */
   URAD_SCENE_CLOSED = 2  /* no light leaves: rows sum to 1 after repair */
 };
 
 typedef struct urad_scene {
-  uint16_t abi;   /* URAD_SCENE_ABI */
+  uint16_t abi;   /* URAD_SCENE_ABI or URAD_SCENE_ABI_SIGHT */
   uint16_t flags; /* URAD_SCENE_CONVEX | URAD_SCENE_CLOSED */
   uint16_t patch_count, surface_count, material_count, blocker_count;
   uint32_t vertex_count;
@@ -86,6 +109,10 @@ typedef struct urad_scene {
   const urad_point *vertex;       /* [vertex_count]; null when 0 */
   const int32_t *log2_scale_q24;  /* [patch_count] symmetric repair d: G' = d_i G d_j; null: none */
   int32_t log2_power_q24;         /* log2 of power units per (exitance unit x square scene unit) */
+  const urad_bounds *bounds;         /* [bounds_count], whole before part; null when 0: blockers one by one */
+  const urad_visibility *visibility; /* null: by rays */
+  uint16_t bounds_count;
+  uint16_t reserved;                 /* 0 */
 } urad_scene;
 
 #endif

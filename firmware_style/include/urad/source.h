@@ -33,6 +33,8 @@ typedef struct urad_counters {
   uint32_t rows_empty;          /* rows of faces in use that nothing touched, left out */
   uint32_t poses;               /* evaluated by a load: pose already seen */
   uint32_t sums;                /* points at which near pairs took an exact sum */
+  uint32_t shut_unseen;         /* of blocked: one blocker shuts off all of the pair, no ray made */
+  uint32_t sights;              /* evaluated with a visible part that was exported, no ray made */
 } urad_counters;
 
 /* Fills f_uq32[0 .. count-1] with the form factors F (UQ0.32, saturating) from patch `shooter` to patches

@@ -29,12 +29,17 @@ bool closer_than(const Patch& i, const Patch& j, uint32_t rho_uq16) noexcept;
 /// tr M, then comes from 8 more rays each that leave by the cosine law.
 /// Segments that leave or meet a patch from behind count for nothing, and others are made in their
 /// place, 16 tries a ray at most; 0 when none is found.
-/// Blockers that cannot reach between the patches are left out beforehand, and when none remains no
-/// ray is made, and the rays asked for count as spared. reject = false keeps all blockers, for
-/// tests: the same fraction.
+/// Blockers that cannot reach between the patches are left out beforehand; when none remains, or one
+/// shuts off everything between them, no ray is made, and the rays asked for count as spared. reject =
+/// false keeps all blockers, for tests: the same fraction.
 uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
                                uint16_t rays, bool weighted, urad_counters* counters,
                                bool reject = true) noexcept;
+
+/// The same for a receiver of a run, whose blockers were looked up together.
+class RunBlockers;
+uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t rays, bool weighted,
+                               urad_counters* counters) noexcept;
 
 /// How many rays a pair is worth.
 struct AdaptiveRays {
@@ -56,5 +61,7 @@ inline constexpr uint8_t kMaxDepth = 6;
 uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
                                 const AdaptiveRays& plan, uint32_t f_uq32, urad_counters* counters,
                                 bool reject = true) noexcept;
+uint32_t adaptive_fraction_uq16(RunBlockers& run, const Patch& receiver, const AdaptiveRays& plan,
+                                uint32_t f_uq32, urad_counters* counters) noexcept;
 
 }  // namespace urad

@@ -40,7 +40,9 @@ Json counters_json(const urad_counters& c) {
           {"networks", c.networks},
           {"rays_spared", c.rays_spared},
           {"blockers_kept", c.blockers_kept},
-          {"blockers_rejected", c.blockers_rejected}};
+          {"blockers_rejected", c.blockers_rejected},
+          {"shut_unseen", c.shut_unseen},
+          {"sights", c.sights}};
 }
 
 Json method_json(const MethodResult& method) {

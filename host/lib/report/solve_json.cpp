@@ -42,7 +42,9 @@ Json sweep(const urad_counters& c) {
           {"networks", c.networks},
           {"rays_spared", c.rays_spared},
           {"blockers_kept", c.blockers_kept},
-          {"blockers_rejected", c.blockers_rejected}};
+          {"blockers_rejected", c.blockers_rejected},
+          {"shut_unseen", c.shut_unseen},
+          {"sights", c.sights}};
 }
 
 Json shots(const urad_radiosity_counters& c) {

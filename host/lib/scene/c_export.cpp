@@ -83,11 +83,11 @@ std::string open_header(const Banner& banner) {
       "#ifndef {}\n"
       "#define {}\n"
       "#include \"urad/scene.h\"\n"
-      "#if URAD_SCENE_ABI != {}\n"
+      "#if !defined URAD_SCENE_ABI_SIGHT || URAD_SCENE_ABI_SIGHT != {}\n"
       "#error \"{}.h was exported for scene ABI {}: export it again\"\n"
       "#endif\n\n",
       c_comment(banner.command), banner.what, banner.units, banner.bytes, guard, guard,
-      URAD_SCENE_ABI, banner.name, URAD_SCENE_ABI);
+      URAD_SCENE_ABI_SIGHT, banner.name, URAD_SCENE_ABI_SIGHT);
 }
 
 // Sizes on a 32-bit target, whatever the host's pointers are.
@@ -95,10 +95,23 @@ constexpr std::size_t kPointBytes = 12, kShapeBytes = 36,
                       kGridBytes = 3 * kPointBytes + 4 + kShapeBytes;
 constexpr std::size_t kPolygonBytes = kShapeBytes + kPointBytes + 8, kSurfaceBytes = 16,
                       kMaterialBytes = 20;
-constexpr std::size_t kBlockerBytes = 3 * kPointBytes + 8, kSceneBytes = 40, kCrcBytes = 8;
+constexpr std::size_t kBlockerBytes = 3 * kPointBytes + 8, kBoundsBytes = 2 * kPointBytes + 8,
+                      kSceneBytes = 52, kVisibilityBytes = 16, kCrcBytes = 8;
 static_assert(sizeof(urad_shape) == kShapeBytes && sizeof(urad_grid) == kGridBytes);
 static_assert(sizeof(urad_polygon) == kPolygonBytes && sizeof(urad_material) == kMaterialBytes);
-static_assert(sizeof(urad_blocker) == kBlockerBytes);
+static_assert(sizeof(urad_blocker) == kBlockerBytes && sizeof(urad_bounds) == kBoundsBytes);
+
+std::string visibility(const std::string& prefix, const urad_visibility& v) {
+  std::string text = array("uint32_t", prefix + "visibility_row", v.row, v.patch_count,
+                           [](std::uint32_t x) { return fmt::format("0x{:08X}u", x); });
+  text += fmt::format("static const uint8_t {}visibility_code[{}] = {{", prefix, v.byte_count);
+  for (std::uint32_t k = 0; k < v.byte_count; ++k)
+    fmt::format_to(std::back_inserter(text), "{}{},", k % 24 ? "" : "\n    ", v.code[k]);
+  return text + fmt::format(
+                    "\n}};\nstatic const urad_visibility {}visibility = {{{}, {}, 0, {}u, "
+                    "{}visibility_row, {}visibility_code}};\n",
+                    prefix, v.patch_count, v.bits, v.byte_count, prefix, prefix);
+}
 
 }  // namespace
 
@@ -113,7 +126,10 @@ std::string c_identifier(const std::string& text) {
 std::size_t scene_flash_bytes(const urad_scene& s, bool scaled) {
   std::size_t bytes = kSceneBytes + kCrcBytes + s.surface_count * kSurfaceBytes +
                       s.material_count * kMaterialBytes + s.blocker_count * kBlockerBytes +
-                      s.vertex_count * kPointBytes + (scaled ? std::size_t{4} * s.patch_count : 0);
+                      s.vertex_count * kPointBytes + (scaled ? std::size_t{4} * s.patch_count : 0) +
+                      s.bounds_count * kBoundsBytes;
+  if (s.visibility)
+    bytes += kVisibilityBytes + std::size_t{4} * s.patch_count + s.visibility->byte_count;
   for (std::size_t k = 0; k < s.surface_count; ++k)
     bytes += s.surface[k].grid ? kGridBytes : s.surface[k].patch_count * kPolygonBytes;
   return bytes;
@@ -175,6 +191,12 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
         return fmt::format("{{{}, {}, {}, {}, {}, {}}}", point(b.normal_q30), point(b.low),
                            point(b.high), b.first_vertex, b.vertex_count, b.surface);
       });
+  text +=
+      array("urad_bounds", prefix + "bounds", s.bounds, s.bounds_count, [](const urad_bounds& b) {
+        return fmt::format("{{{}, {}, {}, {}, {}, 0}}", point(b.low), point(b.high), b.first, b.end,
+                           b.next);
+      });
+  if (s.visibility) text += visibility(prefix, *s.visibility);
   text += array("int32_t", prefix + "log2_scale_q24", s.log2_scale_q24, scaled ? s.patch_count : 0,
                 [](int32_t x) { return integer(x); });
   const auto reference = [&](bool present, const char* what) {
@@ -182,12 +204,15 @@ std::string scene_to_c(const FixedScene& scene, const std::string& name,
   };
   text += fmt::format(
       "static const urad_scene {}scene = {{\n"
-      "    URAD_SCENE_ABI, {}, {}, {}, {}, {}, {}u,\n"
-      "    {}surface, {}material, {}, {}, {}, {}}};\n",
-      prefix, s.flags, s.patch_count, s.surface_count, s.material_count, s.blocker_count,
-      s.vertex_count, prefix, prefix, reference(s.blocker_count > 0, "blocker"),
-      reference(s.vertex_count > 0, "vertex"), reference(scaled, "log2_scale_q24"),
-      s.log2_power_q24);
+      "    {}, {}, {}, {}, {}, {}, {}u,\n"
+      "    {}surface, {}material, {}, {}, {}, {},\n"
+      "    {}, {}, {}, 0}};\n",
+      prefix, s.abi == URAD_SCENE_ABI ? "URAD_SCENE_ABI" : "URAD_SCENE_ABI_SIGHT", s.flags,
+      s.patch_count, s.surface_count, s.material_count, s.blocker_count, s.vertex_count, prefix,
+      prefix, reference(s.blocker_count > 0, "blocker"), reference(s.vertex_count > 0, "vertex"),
+      reference(scaled, "log2_scale_q24"), s.log2_power_q24,
+      reference(s.bounds_count > 0, "bounds"), s.visibility ? "&" + prefix + "visibility" : "0",
+      s.bounds_count);
   const urad::SceneCrc crc = urad::scene_crc32(s);
   text += fmt::format(
       "/* for urad_scene_verify(): of the fields, of the tables */\n"

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "geometry/bridge.hpp"
+#include "scene/bounds.hpp"
 #include "scene/grid_detect.hpp"
 
 namespace host {
@@ -16,6 +17,7 @@ struct FixedScene::Tables {
   std::vector<urad_surface> surface;
   std::vector<urad_material> material;
   std::vector<urad_blocker> blocker;
+  std::vector<urad_bounds> bounds;
   std::vector<urad_point> vertex;
   std::vector<urad_grid> grid;
   std::vector<urad_polygon> polygon;
@@ -227,8 +229,10 @@ FixedScene::FixedScene(const Scene& scene) : tables_(std::make_shared<Tables>())
     t.blocker.push_back(fixed);
   }
 
+  t.bounds = make_bounds(&t.blocker);
+
   urad_scene& pod = t.pod;
-  pod.abi = URAD_SCENE_ABI;
+  pod.abi = t.bounds.empty() ? URAD_SCENE_ABI : URAD_SCENE_ABI_SIGHT;
   pod.flags =
       uint16_t((scene.convex ? URAD_SCENE_CONVEX : 0) | (scene.closed ? URAD_SCENE_CLOSED : 0));
   pod.patch_count = count16(scene.patches, "patches");
@@ -239,6 +243,8 @@ FixedScene::FixedScene(const Scene& scene) : tables_(std::make_shared<Tables>())
   pod.surface = t.surface.data();
   pod.material = t.material.data();
   pod.blocker = data_or_null(t.blocker);
+  pod.bounds_count = uint16_t(t.bounds.size());
+  pod.bounds = data_or_null(t.bounds);
   pod.vertex = data_or_null(t.vertex);
   pod.log2_power_q24 = log2_q24(power_units, "the power unit");
 }

@@ -68,7 +68,13 @@ OpenScene::OpenScene(const urad_scene& scene)
       material_(copied(scene.material, scene.material_count)),
       blocker_(copied(scene.blocker, scene.blocker_count)),
       vertex_(copied(scene.vertex, scene.vertex_count)),
-      scale_(copied(scene.log2_scale_q24, scene.patch_count)) {
+      scale_(copied(scene.log2_scale_q24, scene.patch_count)),
+      bounds_(copied(scene.bounds, scene.bounds_count)) {
+  if (const urad_visibility* visibility = scene.visibility) {
+    visibility_ = *visibility;
+    row_ = copied(visibility->row, visibility->patch_count);
+    code_ = copied(visibility->code, visibility->byte_count);
+  }
   for (const urad_surface& surface : surface_) {
     grid_.push_back(copied(surface.grid, 1));
     polygon_.push_back(copied(surface.polygon, surface.patch_count));
@@ -86,6 +92,10 @@ void OpenScene::link() {
   scene_.blocker = blocker_.empty() ? nullptr : blocker_.data();
   scene_.vertex = vertex_.empty() ? nullptr : vertex_.data();
   scene_.log2_scale_q24 = scale_.empty() ? nullptr : scale_.data();
+  scene_.bounds = bounds_.empty() ? nullptr : bounds_.data();
+  visibility_.row = row_.data();
+  visibility_.code = code_.data();
+  scene_.visibility = code_.empty() ? nullptr : &visibility_;
 }
 
 std::vector<OpenScene::Bytes> OpenScene::tables() {
@@ -95,7 +105,14 @@ std::vector<OpenScene::Bytes> OpenScene::tables() {
                             all(material_),
                             all(blocker_),
                             all(vertex_),
-                            all(scale_)};
+                            all(scale_),
+                            all(bounds_),
+                            all(row_),
+                            all(code_)};
+  if (scene_.abi == URAD_SCENE_ABI_SIGHT) {
+    result.push_back({&scene_.bounds_count, 2 * sizeof scene_.bounds_count});
+    if (!code_.empty()) result.push_back({&visibility_, offsetof(urad_visibility, row)});
+  }
   for (urad_surface& surface : surface_) result.push_back({&surface, offsetof(urad_surface, grid)});
   for (auto& grid : grid_) result.push_back(all(grid));
   for (auto& polygon : polygon_) result.push_back(all(polygon));
@@ -143,6 +160,13 @@ void OpenScene::mutate(Choices* choices) {
   fit(&blocker_, scene_.blocker_count);
   fit(&vertex_, scene_.vertex_count);
   if (!scale_.empty()) fit(&scale_, scene_.patch_count);
+  scene_.bounds_count = std::uint16_t(scene_.bounds_count % kMostEntries);
+  if (!bounds_.empty()) fit(&bounds_, scene_.bounds_count);
+  visibility_.byte_count %= 1u << 20;
+  if (!code_.empty()) {
+    fit(&row_, visibility_.patch_count);
+    fit(&code_, visibility_.byte_count);
+  }
   grid_.resize(surface_.size(), grid_.front());
   polygon_.resize(surface_.size(), polygon_.front());
   for (std::size_t s = 0; s < surface_.size(); ++s)
@@ -205,6 +229,7 @@ void OpenScene::randomise(Choices* choices) {
   if (choices->yes())
     for (std::uint16_t k = 0; k < patches; ++k)
       scale_.push_back(std::int32_t(choices->word()) >> (4 + choices->below(8)));
+  scene_.abi = URAD_SCENE_ABI;
   scene_.flags = std::uint16_t(choices->below(4));
   scene_.patch_count = patches;
   scene_.surface_count = std::uint16_t(surface_.size());

@@ -45,6 +45,10 @@ class OpenScene {
   std::vector<urad_blocker> blocker_;
   std::vector<urad_point> vertex_;
   std::vector<std::int32_t> scale_;
+  std::vector<urad_bounds> bounds_;
+  urad_visibility visibility_{};  ///< of no patches: none
+  std::vector<std::uint32_t> row_;
+  std::vector<std::uint8_t> code_;
   std::deque<std::vector<urad_grid>> grid_;        ///< by surface: one, or none
   std::deque<std::vector<urad_polygon>> polygon_;  ///< by surface
 };
