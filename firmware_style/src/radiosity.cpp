@@ -160,14 +160,16 @@ void reflect_run(Radiosity* s, Beam* beam, Reflection* to, uint32_t first, uint3
 
 /// All runs of the shooter's row. *sum_uq32 counts what was handed out even if the source fails
 /// half way.
-urad_status shoot(Radiosity* s, Beam* beam, uint64_t* sum_uq32, bool* cut) noexcept {
+urad_status shoot(Radiosity* s, const urad_surface& from, Beam* beam, uint64_t* sum_uq32,
+                  bool* cut) noexcept {
   const urad_scene& scene = *s->scene;
+  const uint32_t receivers = uint32_t{scene.patch_count} - from.patch_count;
   for (uint32_t k = 0; k < scene.surface_count; ++k) {
     const urad_surface& surface = scene.surface[k];
     const urad_material& material = scene.material[surface.material];
     Reflection to[3];
     for (int c = 0; c < 3; ++c) {
-      to[c] = reflection_of(beam[c], material.reflectance_uq15[c], s->counters.shots);
+      to[c] = reflection_of(beam[c], material.reflectance_uq15[c], s->counters.shots, receivers);
     }
     const uint32_t end = uint32_t{surface.first_patch} + surface.patch_count;
     for (uint32_t first = surface.first_patch, count; first < end; first += count) {
@@ -191,8 +193,10 @@ urad_status shoot(Radiosity* s, Beam* beam, uint64_t* sum_uq32, bool* cut) noexc
 
 /// Every patch_count shots |unshot| has to fall by 1/4096 at least. Overshooting may raise it
 /// first, where all patches emit, and makes it swing in a scene of few: it is looked at every 64
-/// shots at the earliest, and fails only after four times in a row.
+/// shots at the earliest, and fails only after four times in a row. The last few units of every
+/// patch fall by chance as much as by absorption: they fail after sixteen times.
 void guard(Radiosity* s) noexcept {
+  constexpr uint32_t kFewUnits = 3 * 256;  // of a patch
   constexpr uint16_t kSwing = 64;
   const uint16_t patches = s->scene->patch_count;
   const bool swings = (s->flags & URAD_OVERSHOOT) && patches < kSwing;
@@ -202,7 +206,8 @@ void guard(Radiosity* s) noexcept {
   s->window_shots = 0;
   s->window_remaining = s->remaining;
   s->window_strikes = falls ? 0 : uint8_t(s->window_strikes + 1);
-  const int strikes = s->flags & URAD_OVERSHOOT ? 4 : 1;
+  const bool few = s->remaining < uint64_t{kFewUnits} * patches;
+  const int strikes = few ? 16 : s->flags & URAD_OVERSHOOT ? 4 : 1;
   if (s->window_strikes >= strikes && s->status == URAD_OK) s->status = URAD_DIVERGES;
 }
 
@@ -237,7 +242,7 @@ Status radiosity_step(Radiosity* s) noexcept {
 
   uint64_t sum_uq32 = 0;
   bool cut = false;
-  const urad_status status = shoot(s, beam, &sum_uq32, &cut);
+  const urad_status status = shoot(s, surface, beam, &sum_uq32, &cut);
   const bool keep = status != URAD_OK || judge_row(s, sum_uq32, cut);
   book(s, beam, sum_uq32, keep);
   survey(s);

@@ -5,7 +5,7 @@
 
 namespace urad {
 
-constexpr uint32_t kRounded = 256;  // shots of fewer power units are cut, not rounded
+constexpr uint32_t kRounded = 8;  // shots of fewer power units are cut, not rounded
 
 /// The power of one shot in one channel: negative ? -p : p, p = mantissa * 2^exponent.
 struct Beam {
@@ -29,18 +29,22 @@ inline Beam beam_of(int32_t power) noexcept {
   return {p >> exponent, exponent, power < 0, 0};
 }
 
-inline Reflection reflection_of(const Beam& beam, uint16_t reflectance_uq15,
-                                uint32_t shots) noexcept {
-  const uint32_t product = beam.mantissa * reflectance_uq15;
+/// Both roundings are to either side by chance, in proportion: over many shots none has a bias, for
+/// no receiver. Chance: fractions of shots times the golden ratio, spread evenly however few shots
+/// share a rounding error.
+inline Reflection reflection_of(const Beam& beam, uint16_t reflectance_uq15, uint32_t shots,
+                                uint32_t receivers) noexcept {
+  const uint32_t product = beam.mantissa * reflectance_uq15, chance = shots * 0x9E3779B9u;
   const int leading = top_bit(product) - 14, cut = leading > 0 ? leading : 0;
-  // Fractions of shots times the golden ratio: spread evenly, however few shots share a rounding
-  // error.
-  const uint32_t dither = cut ? (shots * 0x9E3779B9u) >> (32 - cut) : 0;
-  // Half a unit rounds; without it the light of the last, tiny shots dies out instead of going
-  // round for ever.
+  // Receivers lose half a unit of the sum each: given back in proportion, but nothing is made of a
+  // mirror's light.
+  const uint32_t step = uint32_t{1} << cut, lost = (receivers << cut) >> 17;
+  const uint32_t dither = (cut ? chance >> (32 - cut) : 0) + lost;
+  // Were the last, tiny shots rounded too, their light would go round for ever.
   const uint32_t shift = uint32_t(31 - beam.exponent - cut);
-  const uint32_t sum = beam.mantissa >= kRounded ? (uint32_t{1} << shift) >> 1 : 0;
-  return {(product + dither) >> cut, shift, sum};
+  const uint32_t start = shift < 31 ? (chance * 5) >> (32 - shift) : uint32_t{1} << 30;
+  return {(product + (dither < step ? dither : step - 1)) >> cut, shift,
+          beam.mantissa >= kRounded ? start : 0};
 }
 
 /// Adds (or takes away) F * reflection in one channel of `count` receivers; returns the sum. The

@@ -50,13 +50,16 @@ def main():
     build, out = Path(sys.argv[1]), Path(sys.argv[2])
     engine = counted(build / "firmware_style", "firmware_style")
     host = counted(build / "host/CMakeFiles/urad_host.dir", "host/lib")
-    excused, missing, used = excuses(), [], {}
+    excused, missing, used, promises = excuses(), [], {}, 0
     for file, rows in sorted(engine.items()):
         text = (ROOT / file).read_text().splitlines()
         for number, branches, taken, executed in rows:
             if taken == branches and executed:
                 continue
             key = (Path(file).name, text[number - 1].strip())
+            if key[1].startswith("expect("):  # traps where a caller breaks its word; no branch of other builds
+                promises += branches - taken
+                continue
             if key in excused and branches - taken <= excused[key][0]:
                 used[key] = branches - taken
             else:
@@ -64,7 +67,7 @@ def main():
     unused = [" | ".join(key) for key in excused if key not in used]
     branches, taken, lines, executed = sums(engine)
     host_branches, host_taken, host_lines, host_executed = sums(host)
-    reasons = sum(used.values())
+    reasons = sum(used.values()) + promises
     rows = [
         "| what | branches | taken by tests | excused | goal | lines run |",
         "| --- | --: | --: | --: | --: | --: |",
@@ -76,6 +79,8 @@ def main():
     for folder in sorted({file.rsplit("/", 1)[0] for file in host}):
         part = sums({file: r for file, r in host.items() if file.rsplit("/", 1)[0] == folder})
         rows.append(f"| {folder} | {part[0]:,} | {share(part[1], part[0])} | - | - | {share(part[3], part[2])} |")
+    rows += ["", f"{promises} of the excused are sides of `expect(...)`: promises of callers, which trap in checked builds "
+             "and are no code in others."]
     if used:
         rows += ["", "| excused branch of the engine | why no test can take it |", "| --- | --- |"]
         rows += [f"| {file}: `{text}` | {excused[file, text][1]} |".replace("||", "\\|\\|")
