@@ -43,7 +43,7 @@ count() {  # BOARD WHAT: mean instructions, empty when it was not counted
     inside && $1 == what { for (k = 2; k < NF; ++k) if ($k == "\"mean\":") print $(k + 1) + 0 }' "$counts"
 }
 grouped() { sed -E ':a; s/^([0-9]+)([0-9]{3})/\1,\2/; ta' <<<"${1:--}"; }
-per_pair_of_run() { local n; n=$(count "$1" run_network); [[ -z $n ]] || echo $(((n + 24) / 49)); }
+per_pair_of_run() { local n; n=$(count "$1" "$2"); [[ -z $n ]] || echo $(((n + 24) / 49)); }
 solved() {  # BOARD FIELD: a number of the line that the solve program prints
   sed -nE "s/.* $2 ([0-9]+).*/\1/p" "$work/$1/budget.txt" | head -n 1
 }
@@ -111,12 +111,14 @@ END
   row "far pair, network skipped" - count pair_network_far
   row "pair by auto, 1 %, without a network" - count pair_auto
   row "one point of an exact sum" - count pair_point
-  row "pair by the network, in runs" 600 per_pair_of_run
+  row "pair by the network, in runs" 600 per_pair_of_run run_network
+  row "pair by the network of 1996 (24-50-1), in runs" - per_pair_of_run run_legacy
   row "run of 49 by the network" - count run_network
   row "shot, solver alone" - count shot_solver_alone
   row "shot by the moment kernel" - count shot_moment
   row "shot by the network" - count shot_network
   row "shot by pose table" - count shot_table
+  row "shot by the network of 1996 (24-50-1)" - count shot_legacy
   row "shot by hemicube:32" - count shot_hemicube_32
   row "shot by hemicube:32, near pairs by the network" - count shot_hemicube_32_near_network
   row "shot by hemicube:64" - count shot_hemicube_64

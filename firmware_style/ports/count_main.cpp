@@ -9,6 +9,9 @@
 #ifdef URAD_POSES_HEADER
 #include URAD_POSES_HEADER
 #endif
+#ifdef URAD_LEGACY_HEADER
+#include URAD_LEGACY_HEADER
+#endif
 #include "port.hpp"
 #include "regions.hpp"
 #include "text.hpp"
@@ -17,6 +20,7 @@
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
 #include "urad/lambert.hpp"
+#include "urad/legacy.hpp"
 #include "urad/pose_table.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/urad.h"
@@ -140,6 +144,29 @@ bool table(port::Writer& labels, uint16_t shooter) {
 bool table(port::Writer&, uint16_t) { return true; }
 #endif
 
+#ifdef URAD_LEGACY_HEADER
+int32_t g_legacy_memory[urad::legacy_bytes(URAD_LEGACY_MAX_HIDDEN) / 4];
+
+/// The report's own network. Its weights are fixed-point and its first layer is factored: 1996 had
+/// neither.
+bool legacy(port::Writer& labels, uint16_t shooter) {
+  urad::LegacySource source;
+  if (urad::legacy_init(&source, &kScene, &URAD_LEGACY_NAME, 0, &g_counters, g_legacy_memory,
+                        sizeof g_legacy_memory) != urad::Status::ok)
+    return false;
+  for (uint16_t s = 1; s < kScene.surface_count; ++s) {
+    const urad_surface& surface = kScene.surface[s];
+    const uint16_t count = surface.patch_count < kLongestRun ? surface.patch_count : kLongestRun;
+    measure(labels, "run_legacy", [&] {
+      g_sink = urad::legacy_fill(&source, shooter, s, surface.first_patch, count, g_factors);
+    });
+  }
+  return shots(labels, "shot_legacy", {urad::legacy_fill, &source}, kShots);
+}
+#else
+bool legacy(port::Writer&, uint16_t) { return true; }
+#endif
+
 }  // namespace
 
 int run() {
@@ -171,6 +198,7 @@ int run() {
       shots(labels, "shot_moment", {urad::pair_fill, &kernel}, kShots) &&
       shots(labels, "shot_network", {urad::pair_fill, &network}, kShots) &&
       solve(labels, "solve_network", {urad::pair_fill, &network}) && table(labels, shooter) &&
+      legacy(labels, shooter) &&
       hemicube_shots<32>(labels, "shot_hemicube_32", "shot_hemicube_32_near_network") &&
       hemicube_shots<64>(labels, "shot_hemicube_64", "shot_hemicube_64_near_network");
   labels.flush();

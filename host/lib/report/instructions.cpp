@@ -34,9 +34,10 @@ std::optional<double> InstructionCounts::mean(const std::string& what) const {
 }
 
 std::optional<double> InstructionCounts::per_pair(const std::string& method) const {
-  static const std::map<std::string, std::string> names = {
-      {"net", "pair_network"}, {"fixed-moment", "pair_moment"}, {"fixed-kernel", "pair_centre"},
-      {"auto", "pair_auto"}};
+  static const std::map<std::string, std::string> names = {{"net", "pair_network"},
+                                                           {"fixed-moment", "pair_moment"},
+                                                           {"fixed-kernel", "pair_centre"},
+                                                           {"auto", "pair_auto"}};
   const auto found = names.find(method);
   return found == names.end() ? std::nullopt : mean(found->second);
 }
@@ -46,6 +47,7 @@ std::optional<double> InstructionCounts::per_shot(const std::string& method) con
       {"net", "shot_network"},
       {"fixed-moment", "shot_moment"},
       {"table", "shot_table"},
+      {"legacy:linear50", "shot_legacy"},
       {"hemicube:32", "shot_hemicube_32"},
       {"hybrid:32", "shot_hemicube_32_near_network"},
       {"hemicube:64", "shot_hemicube_64"},
