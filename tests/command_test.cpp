@@ -1,11 +1,8 @@
 // The program as a person meets it: exit status, one clear sentence, nothing half-written.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -13,36 +10,15 @@
 
 #include "base/csv.hpp"
 #include "base/file.hpp"
+#include "program.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int status = -1;
-  std::string text;  // stdout and stderr
-};
-
-Outcome urad(const std::string& arguments) {
-  const std::string command = std::string(URAD_PROGRAM) + " --quiet " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe);
-  Outcome outcome;
-  std::array<char, 4096> block;
-  for (std::size_t n; (n = fread(block.data(), 1, block.size(), pipe)) > 0;)
-    outcome.text.append(block.data(), n);
-  const int status = pclose(pipe);
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-/// A folder of its own for each test case, empty at the start.
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(URAD_SCRATCH_DIR) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
+using test::Outcome;
+using test::scratch;
+using test::urad;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

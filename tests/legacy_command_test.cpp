@@ -1,6 +1,5 @@
 // legacy:NAME on the command line: pairs, scenes, files, and what is refused.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -10,24 +9,16 @@
 #include "base/file.hpp"
 #include "legacy/legacy_fixed.hpp"
 #include "legacy/legacy_json.hpp"
+#include "program.hpp"
 #include "scene/builtin.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-int urad(const std::string& arguments) {
-  const int status = std::system(
-      (std::string(URAD_PROGRAM) + " --quiet " + arguments + " >/dev/null 2>&1").c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using test::urad;
 
-std::string scratch(const std::string& name) {
-  const fs::path folder = fs::path(URAD_SCRATCH_DIR) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder.string();
-}
+std::string scratch(const std::string& name) { return test::scratch(name).string(); }
 
 const std::string kWeights = URAD_SOURCE_DIR "/weights/legacy_linear50.json";
 
@@ -41,7 +32,8 @@ TEST_CASE("pairs get the network's integers, or the reason why it cannot read th
                                   "0 0 1;1 0 1;1 1 1;0 1 1\ntriangle,0 0 0;1 0 0;0 1 0," + far +
                                   "\noutside," + near + ",0 0 2;0 1 2;1 1 2;1 0 2\n");
   REQUIRE(urad("formfactor --method legacy:linear50 --in " + folder + "/pairs.csv --out " + folder +
-               "/f.csv") == 0);
+               "/f.csv")
+              .status == 0);
   const host::CsvTable f = host::read_csv(folder + "/f.csv");
   REQUIRE(f.rows.size() == 4);
   const auto net = host::legacy_from_json(host::read_file(kWeights), kWeights);
@@ -56,9 +48,11 @@ TEST_CASE("pairs get the network's integers, or the reason why it cannot read th
 TEST_CASE("the cube is solved by a shipped network and by its file, with the same light") {
   const std::string folder = scratch("legacy_solve");
   REQUIRE(urad("solve cube7 --method legacy:linear50 --shots 50 --out " + folder +
-               "/a.csv --rows " + folder + "/rows.csv") == 0);
+               "/a.csv --rows " + folder + "/rows.csv")
+              .status == 0);
   REQUIRE(urad("solve cube7 --method legacy --net " + kWeights + " --shots 50 --out " + folder +
-               "/b.csv") == 0);
+               "/b.csv")
+              .status == 0);
   CHECK(host::read_file(folder + "/a.csv") == host::read_file(folder + "/b.csv"));
   const auto net = host::legacy_from_json(host::read_file(kWeights), kWeights);
   const host::Scene scene = host::load_scene("cube7");
@@ -78,9 +72,9 @@ TEST_CASE("the cube is solved by a shipped network and by its file, with the sam
 
 TEST_CASE("wrong names and files are refused") {
   const std::string folder = scratch("legacy_refused");
-  CHECK(urad("solve cube7 --method legacy:linear7 --out -") == 2);
-  CHECK(urad("solve cube7 --method legacy --out -") == 2);
-  CHECK(urad("solve cube7 --method net --net " + kWeights + " --out -") == 2);
+  CHECK(urad("solve cube7 --method legacy:linear7 --out -").status == 2);
+  CHECK(urad("solve cube7 --method legacy --out -").status == 2);
+  CHECK(urad("solve cube7 --method net --net " + kWeights + " --out -").status == 2);
   const std::string text = host::read_file(kWeights);
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{"\"urad-legacy 1\"", "\"urad-legacy 2\""},
@@ -89,7 +83,7 @@ TEST_CASE("wrong names and files are refused") {
     std::string bad = text;
     bad.replace(bad.find(from), from.size(), to);
     host::write_file_atomically(folder + "/bad.json", bad);
-    CHECK(urad("export " + folder + "/bad.json -o " + folder + "/bad.h") == 1);
+    CHECK(urad("export " + folder + "/bad.json -o " + folder + "/bad.h").status == 1);
     CHECK_FALSE(fs::exists(folder + "/bad.h"));
   }
 }

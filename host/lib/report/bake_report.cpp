@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/counters_json.hpp"
+
 namespace host {
 namespace {
 
@@ -16,33 +18,6 @@ Json facts_json(const std::vector<Fact>& facts) {
   Json json = Json::object();
   for (const Fact& fact : facts) json[fact.name] = fact.value;
   return json;
-}
-
-Json counters_json(const urad_counters& c) {
-  return {{"pairs", counted_pairs(c)},
-          {"evaluated", c.evaluated},
-          {"skipped_same", c.skipped_same},
-          {"skipped_facing", c.skipped_facing},
-          {"clipped", c.clipped},
-          {"far_pairs", c.far_pairs},
-          {"poses", c.poses},
-          {"blocked", c.blocked},
-          {"rays", c.rays},
-          {"ray_tests", c.ray_tests},
-          {"faces", c.faces},
-          {"faces_empty", c.faces_empty},
-          {"cells", c.cells},
-          {"rows", c.rows},
-          {"rows_empty", c.rows_empty},
-          {"skipped_behind", c.skipped_behind},
-          {"skipped_small", c.skipped_small},
-          {"skipped_convex", c.skipped_convex},
-          {"networks", c.networks},
-          {"rays_spared", c.rays_spared},
-          {"blockers_kept", c.blockers_kept},
-          {"blockers_rejected", c.blockers_rejected},
-          {"shut_unseen", c.shut_unseen},
-          {"sights", c.sights}};
 }
 
 Json method_json(const MethodResult& method) {

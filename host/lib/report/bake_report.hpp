@@ -56,9 +56,9 @@ struct MethodResult {
   std::optional<double> m0_instructions_per_pair;  ///< Cortex-M0, counted
   std::optional<double> m0_instructions;           ///< Cortex-M0, whole solve
   std::optional<std::int64_t> ram_bytes, flash_bytes;
-  std::vector<Fact> memory;  ///< what the bytes are: "solver state" -> "7,056 B RAM"
-  std::optional<urad_counters> counters;            ///< of one sweep: every row of factors once
-  std::optional<urad_radiosity_counters> solver;    ///< of the solve
+  std::vector<Fact> memory;               ///< what the bytes are: "solver state" -> "7,056 B RAM"
+  std::optional<urad_counters> counters;  ///< of one sweep: every row of factors once
+  std::optional<urad_radiosity_counters> solver;  ///< of the solve
   std::optional<EnergyAudit> audit;
   MethodPictures pictures;
 
@@ -83,11 +83,6 @@ struct BakeReport {
     return nullptr;
   }
 };
-
-/// Ordered pairs that the counters account for: evaluated + skipped.
-inline std::uint64_t counted_pairs(const urad_counters& c) {
-  return std::uint64_t{c.evaluated} + c.skipped_same + c.skipped_facing + c.skipped_small;
-}
 
 /// Renders every method that has a solution, all with the white level of the reference (of the
 /// first method when there is none); differences where there is a reference.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "report/counters_json.hpp"
 #include "report/report_sections.hpp"
 #include "report/svg_plot.hpp"
 #include "report/text.hpp"

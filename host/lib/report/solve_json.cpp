@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/counters_json.hpp"
+
 namespace host {
 
 namespace {
@@ -17,34 +19,6 @@ Json facts(const Scene& scene) {
           {"blockers", scene.blockers.size()},
           {"convex", scene.convex},
           {"closed", scene.closed}};
-}
-
-Json sweep(const urad_counters& c) {
-  return {{"evaluated", c.evaluated},
-          {"skipped_same", c.skipped_same},
-          {"skipped_facing", c.skipped_facing},
-          {"clipped", c.clipped},
-          {"far_pairs", c.far_pairs},
-          {"near_pairs", c.near_pairs},
-          {"near_sums", c.sums},
-          {"poses", c.poses},
-          {"blocked", c.blocked},
-          {"rays", c.rays},
-          {"ray_tests", c.ray_tests},
-          {"hemicube_faces", c.faces},
-          {"hemicube_faces_empty", c.faces_empty},
-          {"hemicube_cells", c.cells},
-          {"hemicube_rows", c.rows},
-          {"hemicube_rows_empty", c.rows_empty},
-          {"skipped_behind", c.skipped_behind},
-          {"skipped_small", c.skipped_small},
-          {"skipped_convex", c.skipped_convex},
-          {"networks", c.networks},
-          {"rays_spared", c.rays_spared},
-          {"blockers_kept", c.blockers_kept},
-          {"blockers_rejected", c.blockers_rejected},
-          {"shut_unseen", c.shut_unseen},
-          {"sights", c.sights}};
 }
 
 Json shots(const urad_radiosity_counters& c) {
@@ -78,7 +52,7 @@ std::string solve_json(const Scene& scene, const std::string& method, const Meth
         {"row_worst", run.factors.row_worst},
         {"repaired", !run.scale.empty()},
         {"host_seconds", run.rows.seconds}}},
-      {"sweep", sweep(run.rows.counters)},
+      {"sweep", counters_json(run.rows.counters)},
       {"solver", shots(solution.counters)},
       {"energy",
        {{"emitted", three(solution.ledger.emitted)},
