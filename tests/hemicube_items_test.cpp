@@ -8,6 +8,7 @@
 
 #include "polygon_scene.hpp"
 #include "urad/patch.hpp"
+#include "urad/vec.hpp"
 
 namespace {
 
@@ -62,8 +63,9 @@ Hit trace(const std::vector<Solid>& solids, const Vec& eye, const Vec& ray) {
   for (const Solid& solid : solids) {
     const double offset = glm::dot(solid.normal, solid.loop[0] - eye),
                  cosine = glm::dot(solid.normal, ray);
-    if (std::fabs(offset) < 8) {
-      if (std::fabs(offset) > 2) hit.doubtful = true;
+    // Within the tolerance the eye lies in the plane, and sees it edge-on.
+    if (std::fabs(offset) < urad::kPlaneTolerance + 2) {
+      if (std::fabs(offset) > urad::kPlaneTolerance - 2) hit.doubtful = true;
       continue;
     }
     const double distance = offset / cosine;

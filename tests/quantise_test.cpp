@@ -47,8 +47,8 @@ double rms(const host::QuantisedNet& q, const host::FloatNet& net, std::uint64_t
   double sum = 0;
   for (int k = 0; k < 2000; ++k) {
     const host::Sample s = draw(random);
-    const double e =
-        urad::network_run(q.pod(), s.input_q15.data()) * 0x1p-16 - net.run(s.input_q15.data());
+    const double y = std::clamp(net.run(s.input_q15.data()), -16.0, 16.0);  // as the engine does
+    const double e = urad::network_run(q.pod(), s.input_q15.data()) * 0x1p-16 - y;
     sum += e * e;
   }
   return std::sqrt(sum / 2000);

@@ -26,30 +26,33 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// In more digits than they are compared with: their terms cancel.
+constexpr long double kLongPi = std::numbers::pi_v<long double>;
+
 /// Equal parallel rectangles a x b at distance c [Howell, C-11].
-double parallel_rectangles(double a, double b, double c) {
-  const double x = a / c;
-  const double y = b / c;
-  const double x1 = std::sqrt(1 + x * x);
-  const double y1 = std::sqrt(1 + y * y);
-  return 2 / (kPi * x * y) *
-         (std::log(x1 * y1 / std::sqrt(1 + x * x + y * y)) + x * y1 * std::atan(x / y1) +
-          y * x1 * std::atan(y / x1) - x * std::atan(x) - y * std::atan(y));
+double parallel_rectangles(long double a, long double b, long double c) {
+  const long double x = a / c;
+  const long double y = b / c;
+  const long double x1 = std::sqrt(1 + x * x);
+  const long double y1 = std::sqrt(1 + y * y);
+  return double(2 / (kLongPi * x * y) *
+                (std::log(x1 * y1 / std::sqrt(1 + x * x + y * y)) + x * y1 * std::atan(x / y1) +
+                 y * x1 * std::atan(y / x1) - x * std::atan(x) - y * std::atan(y)));
 }
 
 /// Perpendicular rectangles with a common edge l, widths w (from) and h [Howell, C-14].
-double perpendicular_rectangles(double w, double h, double l) {
-  const double x = w / l;
-  const double y = h / l;
-  const double x2 = x * x;
-  const double y2 = y * y;
-  const double r2 = x2 + y2;
-  const double logs = std::log((1 + x2) * (1 + y2) / (1 + r2)) +
-                      x2 * std::log(x2 * (1 + r2) / ((1 + x2) * r2)) +
-                      y2 * std::log(y2 * (1 + r2) / ((1 + y2) * r2));
-  return (x * std::atan(1 / x) + y * std::atan(1 / y) -
-          std::sqrt(r2) * std::atan(1 / std::sqrt(r2)) + logs / 4) /
-         (kPi * x);
+double perpendicular_rectangles(long double w, long double h, long double l) {
+  const long double x = w / l;
+  const long double y = h / l;
+  const long double x2 = x * x;
+  const long double y2 = y * y;
+  const long double r2 = x2 + y2;
+  const long double logs = std::log((1 + x2) * (1 + y2) / (1 + r2)) +
+                           x2 * std::log(x2 * (1 + r2) / ((1 + x2) * r2)) +
+                           y2 * std::log(y2 * (1 + r2) / ((1 + y2) * r2));
+  return double((x * std::atan(1 / x) + y * std::atan(1 / y) -
+                 std::sqrt(r2) * std::atan(1 / std::sqrt(r2)) + logs / 4) /
+                (kLongPi * x));
 }
 
 /// Regular polygon inscribed in a circle, lit side up.
@@ -107,7 +110,7 @@ TEST_CASE("closed forms: parallel and perpendicular rectangles of any size") {
     const double b = random.log_uniform(0.05, 20);
     const double c = random.log_uniform(0.05, 5);
     CHECK(std::abs(reference_form_factor(rectangle(a, b), flipped(rectangle(a, b, c))) -
-                   parallel_rectangles(a, b, c)) < 2e-13);  // the formula cancels, too
+                   parallel_rectangles(a, b, c)) < 2e-13);
     const Pair pair = hinge(kPi / 2, a, b, c);
     CHECK(std::abs(reference_form_factor(pair.p, pair.q) - perpendicular_rectangles(a, b, c)) <
           2e-13);

@@ -71,6 +71,8 @@ void collect(const Part& part, const Asked& from, Sums* to) noexcept {
   }
 }
 
+constexpr int kMostRays = 256;
+
 constexpr int clamped(int x, int low, int high) noexcept {
   return x < low ? low : x > high ? high : x;
 }
@@ -87,8 +89,12 @@ uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& i, const P
 
 uint32_t adaptive_fraction_uq16(RunBlockers& run, const Patch& receiver, const AdaptiveRays& plan,
                                 uint32_t f_uq32, urad_counters* counters) noexcept {
-  const int rays = clamped(plan.rays, 4, 256), depth = clamped(plan.depth, 0, kMaxDepth);
+  int rays = clamped(plan.rays, 4, kMostRays);
+  const int depth = clamped(plan.depth, 0, kMaxDepth);
   if (closer_than(run.shooter(), receiver, kTouching_uq16)) {
+    // Not cut, since the rays of touching parts have no bounded worth: more rays where more is lost.
+    for (uint64_t e = uint64_t{plan.error_uq32} << 4; rays < kMostRays && f_uq32 > e; e <<= 1)
+      rays = least(2 * rays, kMostRays);
     return visible_fraction_uq16(run, receiver, uint16_t(rays), true, counters);
   }
   const urad_scene& scene = run.scene();

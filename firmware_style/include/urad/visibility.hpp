@@ -56,8 +56,9 @@ inline constexpr uint8_t kMaxDepth = 6;
 /// the larger by now into four, and each part is asked for itself, until its rays agree, `depth`
 /// cuts lie behind it, or its part of the factor is within the error. f_uq32: the unobstructed
 /// factor of the pair, the greater of F_ij and F_ji. Exactly 0 or 65536 when all rays are stopped or
-/// none. Pairs that may touch get `rays` at once. No recursion: a stack of 3 depth + 1 parts, 6
-/// bytes each. Limits are clamped.
+/// none. Pairs that may touch are not cut: they get `rays`, and twice as many for each doubling of
+/// the factor beyond 16 errors, 256 at most. No recursion: a stack of 3 depth + 1 parts, 6 bytes
+/// each. Limits are clamped.
 uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
                                 const AdaptiveRays& plan, uint32_t f_uq32, urad_counters* counters,
                                 bool reject = true) noexcept;
