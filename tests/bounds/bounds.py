@@ -19,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 FLAGS = ("-mcpu=cortex-m0 -mthumb -std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics "
          "-nostdinc++ -ffp-contract=off -ffunction-sections -fcallgraph-info=su -c").split()
 # One scene to put numbers to the bounds: the cube of docs/BUDGET.md with blockers.
-SCENE = dict(P=294, S=6, N=49, G=1, X=7, Y=7, B=12, V=4, W=48, M=7, R=16, C=64, Q=4, U=16, H=12, I=14, L=3, K=1000)
+SCENE = dict(P=294, S=6, N=49, G=1, X=7, Y=7, B=12, V=4, W=48, M=7, R=16, C=64, Q=4, U=16, H=12, I=14, L=3, K=1000, D=8, Z=6000)
 
 
 def compile_engine(engine: Path, work: Path, level: str) -> Path:
