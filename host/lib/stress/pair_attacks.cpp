@@ -204,10 +204,12 @@ void check_blockers(const PolygonPair& pair, const NetChoice& nets, Findings* fi
         std::array<std::uint32_t, 2> row{};
         source.row(0, row.data());
         if (k == 0) last = open = row[1];
-        // Where the item buffer loses sight of a receiver, the hybrid asks rays, which see a little more.
+        // Where no eye of the item buffer sees the receiver, the hybrid asks rays from the whole patch:
+        // a greater blocker may then let more through than the eyes said of a smaller one.
         if (open > 0)
           findings->measure(fmt::format("{}: growth with a blocker, of the open factor", name),
-                            std::max(0.0, row[1] - last - 1) / open, name[1] == 'y' ? 0.03 : 1e-3);
+                            std::max(0.0, row[1] - last - 1) / open,
+                            std::string_view(name) == "hybrid:32" ? kShown : 1e-3);
         last = row[1];
       }
     } catch (const Error&) {  // sizes that no common unit can hold
