@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""mutate.py BUILD WORK OUT.md [--seed N] [--each N] [FILE...] -- changes one operator or constant of the engine at a time
+and runs the tests that kernels.txt names for that file; a mutant that they let pass is a survivor.
+
+BUILD is a release build whose test objects are linked against the engine as a shared library, so that a mutant costs one
+compilation. Of every file, N mutants are drawn with a printed seed (--each 0: all). Survivors must be in survivors.txt,
+with the reason why nothing can tell them from the original; the others are printed.
+"""
+import argparse
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from mutants import mutants_of
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+ENGINE = ROOT / "firmware_style"
+COMPILE = ("g++ -std=c++17 -O1 -w -fPIC -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -nostdinc++ "
+           "-ffp-contract=off -DURAD_CHECKED=1 -c").split()
+SECONDS = 60  # of one test file; beyond, the mutant hangs
+
+
+def table(name: str) -> list[list[str]]:
+    rows = (line.split(" # ")[0] for line in (HERE / name).read_text().splitlines())
+    return [[cell.strip() for cell in row.split(" | ")] for row in rows if row.strip() and row[0] != "#"]
+
+
+def compile_source(source: Path, out: Path, include: list[Path]) -> bool:
+    options = [option for folder in include for option in ("-I", folder)]
+    return subprocess.run([*COMPILE, *options, source, "-o", out], capture_output=True).returncode == 0
+
+
+class Bench:
+    """The engine as objects, and the test program that loads them as a library."""
+
+    def __init__(self, build: Path, work: Path, tests: set[str]):
+        self.work, self.build = work, build
+        self.objects = work / "objects"
+        self.objects.mkdir(parents=True, exist_ok=True)
+        include = [ENGINE / "include"]
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            done = list(pool.map(lambda s: compile_source(s, self.objects / (s.stem + ".o"), include),
+                                 sorted((ENGINE / "src").glob("*.cpp"))))
+        if not all(done):
+            raise SystemExit("the engine does not compile")
+        (work / "original").mkdir(exist_ok=True)
+        self.link(work / "original", {})
+        command = subprocess.run(["ninja", "-C", build, "-t", "commands", "tests/urad_tests"], capture_output=True,
+                                 text=True, check=True).stdout.splitlines()[-1]
+        command = re.sub(r"\S*/(\w+_test)\.cpp\.o", lambda m: m[0] if m[1] in tests else "", command)
+        command = command.replace("-o tests/urad_tests", f"-o {work}/tests")
+        command = command.replace("firmware_style/liburad.a", f"-L{work}/original -lurad")
+        subprocess.run(command, shell=True, cwd=build, check=True)
+
+    def link(self, folder: Path, replaced: dict[str, Path]):
+        objects = [replaced.get(o.name, o) for o in sorted(self.objects.glob("*.o"))]
+        subprocess.run(["g++", "-shared", "-nostdlib", "-Wl,-Bsymbolic", "-o", folder / "liburad.so", *objects, "-lgcc"],
+                       check=True)
+
+    def killed_by(self, folder: Path, tests: list[str]) -> str | None:
+        """The first of the test files that fails."""
+        for test in tests:
+            try:
+                run = subprocess.run([self.work / "tests", f"--source-file=*/{test}.cpp", "--abort-after=1", "--minimal"],
+                                     env={**os.environ, "LD_LIBRARY_PATH": str(folder)}, capture_output=True, text=True,
+                                     timeout=SECONDS, cwd=folder, errors="replace")
+            except subprocess.TimeoutExpired:
+                return test + " (hangs)"
+            if run.returncode != 0:
+                return test
+        return None
+
+    def dependents(self, header: str) -> list[Path]:
+        """Sources that include a header of src, by whatever way."""
+        reached, sources = {header}, set()
+        while True:
+            more = set()
+            for path in (ENGINE / "src").iterdir():
+                includes = set(re.findall(r'#include "([\w.]+)"', path.read_text()))
+                if includes & reached and path.name not in reached:
+                    more.add(path.name)
+            if not more:
+                return [ENGINE / "src" / name for name in sorted(reached) if name.endswith(".cpp")]
+            reached |= more
+
+    def run(self, mutant, folder: Path, tests: list[str]) -> str | None:
+        """Who killed it; "" when it does not compile; None: nobody."""
+        path = next(p for p in (ENGINE / "src" / mutant.file, ENGINE / "include/urad" / mutant.file) if p.exists())
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        changed = folder / mutant.file
+        if path.parent.name == "urad":
+            return self.run_header(mutant, path, folder, tests)
+        changed.write_text(mutant.apply(path.read_text()))
+        replaced = {}
+        for source in [path] if path.suffix == ".cpp" else self.dependents(mutant.file):
+            copy = folder / source.name
+            if source != path:
+                shutil.copy(source, copy)
+            for header in (ENGINE / "src").glob("*.hpp"):  # a quoted include looks beside the source first
+                if header.name != mutant.file and not (folder / header.name).exists():
+                    shutil.copy(header, folder / header.name)
+            target = folder / (source.stem + ".o")
+            if not compile_source(copy, target, [ENGINE / "include"]):
+                return ""
+            replaced[target.name] = target
+        self.link(folder, replaced)
+        return self.killed_by(folder, tests)
+
+    def run_header(self, mutant, path: Path, folder: Path, tests: list[str]) -> str | None:
+        """Headers that hold a whole kernel: the test file itself is compiled with the mutant."""
+        (folder / "urad").mkdir()
+        (folder / "urad" / mutant.file).write_text(mutant.apply(path.read_text()))
+        for test in tests:
+            program = folder / test
+            compiled = subprocess.run(["g++", "-std=c++20", "-O1", "-w", "-I", folder, "-I", ENGINE / "include",
+                                       ROOT / "tests" / (test + ".cpp"), ROOT / "tests/main.cpp", "-o", program],
+                                      capture_output=True)
+            if compiled.returncode != 0:
+                return ""
+            try:
+                if subprocess.run([program, "--abort-after=1"], capture_output=True, timeout=SECONDS).returncode != 0:
+                    return test
+            except subprocess.TimeoutExpired:
+                return test + " (hangs)"
+        return None
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=Path)
+    parser.add_argument("work", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--each", type=int, default=12)
+    parser.add_argument("files", nargs="*")
+    options = parser.parse_intermixed_args()
+    tests = {row[0]: row[1].split() for row in table("kernels.txt")}
+    excused = {(row[0], row[1], row[2]): row[3] for row in table("survivors.txt")}
+    linked = {t for file, names in tests.items() if not (ENGINE / "include/urad" / file).exists() for t in names}
+    bench = Bench(options.build.resolve(), options.work.resolve(), linked)
+    for test in sorted(linked):
+        if bench.killed_by(bench.work / "original", [test]):
+            raise SystemExit(f"{test} fails with the engine as it is")
+    chosen, all_count = [], 0
+    for file in sorted(tests):
+        path = next(p for p in (ENGINE / "src" / file, ENGINE / "include/urad" / file) if p.exists())
+        found = mutants_of(path)
+        all_count += len(found)
+        if options.files and file not in options.files:
+            continue
+        draw = random.Random(f"{options.seed} {file}")
+        chosen += sorted(draw.sample(found, min(options.each or len(found), len(found))), key=lambda m: (m.line, m.column))
+    print(f"seed {options.seed}: {len(chosen)} of {all_count} mutants", flush=True)
+
+    def judge(numbered):
+        number, mutant = numbered
+        folder = bench.work / f"mutant_{number}"
+        killer = bench.run(mutant, folder, tests[mutant.file])
+        shutil.rmtree(folder)
+        if killer is None:
+            reason = excused.get((mutant.file, mutant.text, f"{mutant.old} -> {mutant.new}"))
+            print(f"survives{': ' + reason if reason else ''} | {mutant.name} | {mutant.text}", flush=True)
+        return mutant, killer
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(judge, enumerate(chosen)))
+    write(options, all_count, results, excused)
+
+
+def write(options, all_count, results, excused):
+    viable = [(m, k) for m, k in results if k != ""]
+    reason = {m: excused.get((m.file, m.text, f"{m.old} -> {m.new}")) for m, k in viable if k is None}
+    files = f" of {', '.join(options.files)}" if options.files else ""
+    rows = [f"Seed {options.seed}, {'all' if not options.each else f'up to {options.each}'} mutants a file{files}: "
+            f"{len(results)} of {all_count:,}; {len(results) - len(viable)} do not compile and do not count.", "",
+            "| kind | mutants | killed | equivalent | survive | killed of those that differ | goal |",
+            "| --- | --: | --: | --: | --: | --: | --: |"]
+    for kind in ("arithmetic", "comparison", "constant", "all"):
+        of_kind = [(m, k) for m, k in viable if kind in (m.kind, "all")]
+        killed = sum(k is not None for _, k in of_kind)
+        same = sum(k is None and bool(reason[m]) for m, k in of_kind)
+        differ = len(of_kind) - same
+        rows.append(f"| {kind} | {len(of_kind)} | {killed} | {same} | {differ - killed} | "
+                    f"{100 * killed / max(differ, 1):.1f} % | {'95 %' if kind == 'all' else ''} |")
+    if reason:
+        rows += ["", "| survivor | line | why |", "| --- | --- | --- |"]
+        rows += [f"| {m.name} | `{m.text}` | {why or 'no test tells'} |".replace("||", "\\|\\|") for m, why in reason.items()]
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    options.out.write_text("\n".join(rows) + "\n")
+    print("\n".join(rows[:8]))
+
+
+if __name__ == "__main__":
+    main()
