@@ -46,7 +46,10 @@ void add_formfactor(CLI::App& app, const Common& common) {
           "hemicube:R, legacy:NAME; with --scene also hybrid[:R], rays:N")
       ->required();
   auto* sources = command->add_option_group("input");
-  sources->add_option("--in", options->in, "CSV with columns id, p, q (\"-\": standard input)");
+  sources->add_option(
+      "--in", options->in,
+      "CSV with columns id, p, q (\"-\": standard input). A polygon is \"x y z;x y z;x y z\", "
+      "counter-clockwise from its lit side; holes follow behind |");
   sources->add_option("--scene", options->scene,
                       "CSV with columns scene, role (P, Q or B), polygon");
   sources->require_option(1);

@@ -33,10 +33,14 @@ void add_plan(CLI::App& app, const Common& common) {
   CLI::App* command = app.add_subcommand(
       "plan", "What each method costs on a chip, and which to take: before anything runs there");
   options->scene.add_to(command);
-  command->add_option("--ram", options->request.ram, "Bytes of RAM for the solve; left out: any")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--flash", options->request.flash, "Bytes of flash; left out: any")
-      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--ram", options->request.ram,
+                   "Bytes of RAM for the solve, or 16K; left out: any")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
+  command->add_option("--flash", options->request.flash, "Bytes of flash, or 256K; left out: any")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
   command
       ->add_option("--error", options->request.error,
                    "Relative rms error of B against the exact solution; 0.01 = 1 %")

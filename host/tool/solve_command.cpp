@@ -62,6 +62,14 @@ void refuse(const std::string& scene, urad_status status) {
   throw host::Error(fmt::format("{}: {}", scene, why));
 }
 
+/// Whether patches shine with nothing but what they emit.
+bool all_dark(const host::Scene& scene, const std::vector<host::Vec3>& radiosity) {
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+    if (glm::any(glm::greaterThan(radiosity[k], 1.0001 * scene.material_of(k).exitance)))
+      return false;
+  return true;
+}
+
 void run(const Options& options, const Common& common) {
   host::expect_different_files(
       {{"--out", options.out}, {"--rows", options.rows}, {"--report", options.report}});
@@ -109,6 +117,12 @@ void run(const Options& options, const Common& common) {
                "exact solution\n",
                options.scene.name, spec.text(), result.solution.shots, 100 * result.solution.error,
                100 * result.rms);
+    if (all_dark(scene, result.solution.radiosity))
+      fmt::print(
+          stderr,
+          "{}: no light falls on any patch. The lit side of a face is the one from which its "
+          "vertices run counter-clockwise: are they turned the other way?\n",
+          options.scene.name);
   }
 }
 
@@ -119,14 +133,15 @@ void add_solve(CLI::App& app, const Common& common) {
   CLI::App* command = app.add_subcommand("solve", "Light in a scene: radiosity per patch");
   options->scene.add_to(command);
   command
-      ->add_option("--method", options->method,
-                   "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, table, hemicube:R, "
-                   "hybrid[:R], legacy:NAME, or a "
-                   "pair method in double")
+      ->add_option(
+          "--method", options->method,
+          "exact, auto[:ERROR], net[:NAME], fixed-kernel, fixed-moment, table, hemicube:R, "
+          "hybrid[:R], legacy:NAME, or a "
+          "pair method in double")
       ->required();
   command->add_option("--net", options->net, "JSON of the network for net, auto and hybrid");
   auto* shots = command->add_option("--shots", options->shots, "Stop after N shots")
-                    ->check(CLI::PositiveNumber);
+                    ->check(CLI::Range(1, 1 << 30));
   command
       ->add_option("--error", options->error,
                    "Stop at this relative rms error of B against the converged solution of the "

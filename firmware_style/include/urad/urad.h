@@ -2,13 +2,13 @@
  *
  * A solve in a few lines (status codes left out):
  *
- *   static uint64_t pairs[12];                                 at least urad_pair_source_bytes()
+ *   static uint64_t pairs[16];                                 at least urad_pair_source_bytes()
  *   static uint32_t light[URAD_RADIOSITY_BYTES(294, 49) / 4];  patches, patches a surface
  *   urad_counters counters = {0};
  *   urad_source source;
  *   urad_radiosity state;
- *   urad_pair_source_init(&source, &scene, URAD_KERNEL_MOMENT, &net, 0, &counters, pairs,
- *                         sizeof pairs);
+ *   urad_pair_source_init(&source, &scene, URAD_KERNEL_MOMENT, &net, 16, &counters, pairs,
+ *                         sizeof pairs);                    16 rays a pair; a convex scene asks none
  *   urad_radiosity_init(&state, &scene, &source, URAD_OVERSHOOT, 49, light, sizeof light);
  *   while (!urad_radiosity_done(&state, URAD_PERCENT)) urad_radiosity_step(&state);
  *   urad_radiosity_get(&state, patch, 0, &red);

@@ -1,13 +1,33 @@
 // The one exception of the host programs: a sentence for the person at the keyboard.
 #pragma once
 #include <stdexcept>
+#include <string>
 
 namespace host {
+
+/// Values are quoted as they were read: what would break the line or the terminal is written as an
+/// escape.
+inline std::string one_line(const std::string& text) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n')
+      line += "\\n";
+    else if (c == '\t')
+      line += "\\t";
+    else if (byte < 0x20 || byte == 0x7f)
+      line += std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+    else
+      line += c;
+  }
+  return line;
+}
 
 /// Thrown for anything the user can mend. what() names the file, the line, the value and what would
 /// do.
 struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& sentence) : std::runtime_error(one_line(sentence)) {}
 };
 
 /// The same for what was typed rather than what was read: a method or setting that does not exist.

@@ -166,12 +166,11 @@ FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
   if (is_engine_method(spec) && spec.name != "hybrid") return in_engine(spec, nets);
   const auto maker = host_methods().find(spec.name);
   if (maker == host_methods().end()) {
-    throw UsageError(
-        fmt::format("--method {}: unknown; known are reference, closed-form, lambert:N, "
-                    "gauss:N, contour:N, monte-carlo:SAMPLES, kernel, "
-                    "moment, fixed-kernel, fixed-moment, fixed-lambert:N, net[:NAME], "
-                    "auto[:ERROR], hemicube:R, legacy:NAME",
-                    spec.text()));
+    throw unknown_method(
+        spec,
+        {"reference", "closed-form", "lambert:N", "gauss:N", "contour:N", "monte-carlo:SAMPLES",
+         "kernel", "moment", "fixed-kernel", "fixed-moment", "fixed-lambert:N", "net[:NAME]",
+         "auto[:ERROR]", "hemicube:R", "legacy:NAME", "hybrid[:R] and rays:N (with --scene)"});
   }
   return maker->second(spec);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/parallel.hpp"
 #include "geometry/parse.hpp"
 
@@ -58,7 +60,8 @@ std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& sp
     progress.add();
   });
 
-  std::string text = csv_line(header);
+  std::string text = csv_line(header), first;
+  std::size_t failed = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const CsvRow& row = pairs.rows[k];
     std::vector<std::string> cells{id < row.cells.size() ? row.cells[id] : ""};
@@ -71,7 +74,14 @@ std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& sp
         cells.push_back(ok ? csv_number(result.estimate.relative_error) : "");
     }
     text += csv_line(cells);
+    const auto bad = std::find_if(rows[k].results.begin(), rows[k].results.end(),
+                                  [](const PairResult& result) { return result.status != "ok"; });
+    if (bad == rows[k].results.end()) continue;
+    if (failed++ == 0) first = fmt::format("line {}, {}", row.line, bad->status);
   }
+  if (failed && !quiet)
+    fmt::print(stderr, "{} of {} rows have no factor by every method; the first: {}\n", failed,
+               rows.size(), first);
   return text;
 }
 

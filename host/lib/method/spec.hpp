@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace host {
 
 struct MethodSpec {
@@ -23,5 +25,9 @@ MethodSpec parse_method(const std::string& text);
 
 /// "M[,M...]". Throws Error when the list or one of its members is empty.
 std::vector<MethodSpec> parse_methods(const std::string& list);
+
+/// What to throw for a method that is none of `known` ("hybrid[:R]", "lambert:N"): names them, and
+/// the one that was probably meant.
+UsageError unknown_method(const MethodSpec& spec, const std::vector<std::string>& known);
 
 }  // namespace host

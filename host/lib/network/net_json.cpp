@@ -229,8 +229,9 @@ NetFile net_from_json(const std::string& text, const std::string& where) {
   try {
     json = Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw Error(fmt::format("{}: not JSON from byte {} of {} on: cut short or damaged", where,
-                            error.byte, text.size()));
+    throw Error(fmt::format(
+        "{}: not JSON from byte {} of {} on: cut short, damaged, or not written by urad train",
+        where, error.byte, text.size()));
   } catch (const Json::out_of_range&) {
     throw Error(fmt::format("{}: holds a number too large to be read: damaged", where));
   }
