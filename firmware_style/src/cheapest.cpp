@@ -76,7 +76,7 @@ class Search {
       result_ = nothing();
       return false;
     }
-    fill_traits(sum, by_kernel_q24(kernel_), &traits_);
+    fill_traits(sum, least(by_kernel_q24(kernel_), limit_q24_), &traits_);
     const Patch& carrier = carries(i_, j_) ? i_ : j_;
     const int32_t factor_q8 = q8(sum.log2_exchange_q24 - carrier.shape->log2_area_q24);
     const bool good = guess(model);
@@ -148,27 +148,44 @@ int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch
 }
 
 bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
-                 const urad_net* net, int halvings, int32_t* log2_exchange_q24,
-                 PairTraits* traits) noexcept {
+                 const urad_net* net, int32_t* log2_exchange_q24, PairTraits* traits) noexcept {
   Cuts cuts;
   PairKernel kernel;
   int32_t limit_q24 = 0;
   bool cut = false;
   if (!clipped_kernel(scene, i, j, &cuts, &kernel, &limit_q24, &cut)) return false;
   fill_traits(scene, i, j, cuts, kernel, traits);
-  int32_t log2_g_q24 = by_kernel_q24(kernel);
+  int32_t log2_g_q24 = least(by_kernel_q24(kernel), limit_q24);
   if (way == Way::network) {
     if (!net) return false;
     log2_g_q24 = by_network_q24(kernel, *net);
   } else if (way != Way::kernel) {
-    const int points = way == Way::refined ? kRefinedPoints : int(way) - int(Way::point) + 1;
-    const LambertSum sum = lambert_refined(scene, i, j, points, way == Way::refined ? halvings : 0);
+    const LambertSum sum = lambert_refined(scene, i, j, int(way) - int(Way::point) + 1, 0);
     if (sum.log2_exchange_q24 == kNoExchange) return false;
     fill_traits(sum, log2_g_q24, traits);
     log2_g_q24 = sum.log2_exchange_q24;
   }
   *log2_exchange_q24 = least(log2_g_q24, limit_q24);
   return true;
+}
+
+int refined_stops(const urad_scene& scene, const Patch& i, const Patch& j, RefinedStop* stop,
+                  int room) noexcept {
+  PairTraits traits;
+  int32_t by_kernel = 0;
+  LambertPair pair;
+  if (!exchange_by(scene, i, j, Way::kernel, nullptr, &by_kernel, &traits) ||
+      !lambert_pair(scene, i, j, &pair))
+    return 0;
+  LambertRun run(scene, pair, kRefinedPoints);
+  int count = 0;
+  do {
+    const LambertSum sum = run.sum();
+    if (sum.log2_exchange_q24 == kNoExchange) continue;
+    fill_traits(sum, by_kernel, &traits);
+    stop[count++] = {sum.log2_exchange_q24, traits};
+  } while (count < room && run.halve_worst());
+  return count;
 }
 
 }  // namespace urad

@@ -14,6 +14,7 @@ inline constexpr int kParentDoubt = 2;  // each half: 2^-2 of what halving chang
 struct DoubtfulCell {
   int64_t value;
   int64_t doubt;   ///< by which cells are chosen
+  int64_t slope;   ///< first differences along both sides
   int64_t bend;    ///< second differences along both sides
   int64_t change;  ///< half of what the halving that made it changed, with its sign
   uint16_t place_u, place_v;
@@ -43,6 +44,7 @@ class Variation {
     if (k == points - 1) slope_ += value;
     if (points == 3) second_ += k == 1 ? -2 * value : value;
   }
+  uint64_t slope() const noexcept { return magnitude(slope_); }
   /// The second difference, or what the first one makes likely: the second may pass through 0.
   uint64_t bend(uint64_t size) const noexcept {
     const uint64_t slope = magnitude(slope_);

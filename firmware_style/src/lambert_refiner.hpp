@@ -17,10 +17,12 @@ class Refiner {
   void add_pieces(int points) noexcept {
     pieces_.for_each([&](int number, const Piece& piece) {
       area_ += mean_span(piece);
-      DoubtfulCell cell{0, 0, 0, 0, 0, 0, 0, 0, uint8_t(number), false, false};
+      DoubtfulCell cell{0, 0, 0, 0, 0, 0, 0, 0, 0, uint8_t(number), false, false};
       measure(piece, points, &cell);
       keep(cell);
     });
+    older_ = newer_ = value_;
+    next_mark_ = 2 * leaves_;
   }
 
   /// Halves the most doubtful cell. False when there is none, or enough have been measured.
@@ -30,6 +32,11 @@ class Refiner {
     pieces_.for_each([&](int number, const Piece& piece) {
       if (number == parent.piece) halve(piece, parent);
     });
+    if (leaves_ >= next_mark_) {
+      older_ = newer_;
+      newer_ = value_;
+      next_mark_ *= 2;
+    }
     return true;
   }
 
@@ -45,6 +52,12 @@ class Refiner {
                      : q8 < -kTraitLimit_q8 ? -kTraitLimit_q8
                                             : q8);
     };
+    int64_t worst = 0;
+    for (int k = 0; k < count_; ++k)
+      if (pending_[k].doubt > worst) worst = pending_[k].doubt;
+    log2_trait_q8[sum_slope] = by_value(magnitude(slope_));
+    log2_trait_q8[sum_worst] = by_value(magnitude(worst));
+    log2_trait_q8[sum_moved] = by_value(magnitude(value_ - older_));
     log2_trait_q8[sum_bend] = by_value(magnitude(bend_));
     log2_trait_q8[sum_doubt] = by_value(magnitude(doubt_));
     log2_trait_q8[sum_change] = by_value(magnitude(change_));
@@ -86,6 +99,7 @@ class Refiner {
   void count_in(const DoubtfulCell& cell, int times) noexcept {
     value_ += times * cell.value;
     doubt_ += times * cell.doubt;
+    slope_ += times * cell.slope;
     bend_ += times * cell.bend;
     change_ += times * cell.change;
     changes_ += uint64_t(times * int64_t(magnitude(cell.change)));
@@ -158,6 +172,7 @@ class Refiner {
     const uint64_t bend = bend_u + bend_v;
     cell->value = level ? round_shift(sum, level) : sum;
     cell->along_u = bend_u >= bend_v;
+    cell->slope = int64_t((along_u_variation.slope() + along_v_variation.slope()) >> level);
     cell->bend = int64_t(bend >> level);
     uint64_t doubt = orders_later(bend, magnitude(sum));
     if (points == kRefinedPoints) {
@@ -186,9 +201,10 @@ class Refiner {
   const Pieces& pieces_;
   const Outline& receiver_;
   urad_point normal_q30_;
-  int64_t value_ = 0, doubt_ = 0, bend_ = 0, change_ = 0, area_ = 0;
+  int64_t value_ = 0, doubt_ = 0, slope_ = 0, bend_ = 0, change_ = 0, area_ = 0;
+  int64_t older_ = 0, newer_ = 0;  ///< the sum at earlier powers of two of cells
   uint64_t changes_ = 0, near_ = 0;
-  int cells_ = 0, leaves_ = 0, count_ = 0, point_sums_ = 0;
+  int cells_ = 0, leaves_ = 0, next_mark_ = 0, count_ = 0, point_sums_ = 0;
   DoubtfulCell pending_[kPending];
 };
 

@@ -2,10 +2,12 @@
 // reference; and the constants of auto, fitted.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "accuracy/fit_errors.hpp"
-#include "accuracy/method_trials.hpp"
+#include "accuracy/method_document.hpp"
+#include "accuracy/method_plots.hpp"
 #include "base/file.hpp"
 #include "command.hpp"
 #include "net_option.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> nets;
-  std::string methods, instructions, scene, out = "-";
+  std::string methods, instructions, scene, document, out = "-";
   bool fit_auto = false;
   host::MeshOptions mesh;
   int bits = 16;
@@ -63,7 +65,7 @@ std::string on_random_pairs(const Options& options, const std::vector<Entry>& en
 }
 
 /// Any methods on the test pairs of every family; the first net, if any, is the general one.
-std::string on_trial_pairs(const Options& options, const Common& common) {
+host::MethodTrials on_trial_pairs(const Options& options, const Common& common) {
   const Nets nets(options.nets.empty() ? "" : options.nets.front());
   host::TrialRequest request;
   request.methods = host::trial_methods(nets.choice());
@@ -80,9 +82,33 @@ std::string on_trial_pairs(const Options& options, const Common& common) {
   request.seed = options.seed;
   request.pairs = options.pairs;
   request.threads = common.threads;
+  return host::try_methods(request);
+}
+
+std::string trials_text(const Options& options, const Common& common) {
   return fmt::format("Test pairs, seed {}, {} of each family, against the reference.\n",
                      options.seed, options.pairs) +
-         host::to_markdown(host::try_methods(request));
+         host::to_markdown(on_trial_pairs(options, common));
+}
+
+/// The document, and its pictures beside it.
+void write_document(const Options& options, const Common& common) {
+  const std::filesystem::path path = options.document;
+  const host::MethodTrials trials = on_trial_pairs(options, common);
+  host::MethodDocument document;
+  document.command = fmt::format("urad evaluate --pairs {} --seed {}", options.pairs, options.seed);
+  if (!options.methods.empty()) document.command += " --method " + options.methods;
+  if (!options.instructions.empty()) document.command += " --instructions " + options.instructions;
+  document.command += " --document " + options.document;
+  const auto draw = [&](const char* ending, host::MethodCost cost) {
+    const std::string svg = host::method_plots_svg(trials, cost);
+    const std::string name = path.stem().string() + ending;
+    if (!svg.empty()) host::write_file_atomically((path.parent_path() / name).string(), svg);
+    return svg.empty() ? std::string() : name;
+  };
+  document.time_chart = draw("_time.svg", host::MethodCost::host_ns);
+  document.instruction_chart = draw("_instructions.svg", host::MethodCost::m0_instructions);
+  host::write_file_atomically(options.document, host::method_document(trials, document));
 }
 
 std::string fitted_auto(const Options& options, const Common& common) {
@@ -96,9 +122,10 @@ std::string fitted_auto(const Options& options, const Common& common) {
 }
 
 void run(const Options& options, const Common& common) {
+  if (!options.document.empty()) return write_document(options, common);
   if (options.fit_auto || !options.methods.empty() || options.nets.empty()) {
     host::write_file_atomically(options.out, options.fit_auto ? fitted_auto(options, common)
-                                                              : on_trial_pairs(options, common));
+                                                              : trials_text(options, common));
     return;
   }
   std::vector<host::NetFile> files;
@@ -144,6 +171,9 @@ void add_evaluate(CLI::App& app, const Common& common) {
   command->add_option("--pairs", options->pairs, "Random pairs of each family")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
+  command->add_option("--document", options->document,
+                      "Markdown to write with every method on pairs of every kind; pictures go "
+                      "beside it");
   command->add_option("-o,--out", options->out, "Text file; \"-\": standard output")
       ->capture_default_str();
   command->callback([options, &common] { run(*options, common); });

@@ -43,11 +43,21 @@ CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scen
                                urad_counters* counters) noexcept;
 
 /// One way, whatever it costs and however wrong it is, and the traits of the pair: what constants
-/// are fitted to. halvings: of a refined sum. False when the pair exchanges nothing, or only its sum
+/// are fitted to. False when the pair exchanges nothing, or only its sum
 /// can tell (`traits` is then undefined).
 bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
-                 const urad_net* net, int halvings, int32_t* log2_exchange_q24,
-                 PairTraits* traits) noexcept;
+                 const urad_net* net, int32_t* log2_exchange_q24, PairTraits* traits) noexcept;
+
+/// A refined sum after so many halvings.
+struct RefinedStop {
+  int32_t log2_exchange_q24;
+  PairTraits traits;
+};
+
+/// The sum at nine points and after each of the halvings that may follow, as long as there are some
+/// and room for them; how many there are.
+int refined_stops(const urad_scene& scene, const Patch& i, const Patch& j, RefinedStop* stop,
+                  int room) noexcept;
 
 /// For PairSource::exchange: the cheapest way below source.log2_error_q8, counted in
 /// source.ways[kWays] where that is not null.

@@ -6,7 +6,7 @@
 // with traits t in Q7.8 (cheapest.hpp). A network, because errors have several causes: the order of
 // a rule, an edge nearby, rounding; which of them rules is a bend that no sum of logarithms has.
 //
-//   Width   |t| <= 24, |weight| <= 14, at most 23 traits: sums below 2^31
+//   Width   |t| <= 24, |weight| <= 12, |bias| <= 300, at most 26 traits: sums below 2^31
 //   Cost    hidden (traits + 1) + traits products of 16 bits, hidden sigmoids
 #pragma once
 #include "urad/lambert.hpp"
@@ -52,8 +52,8 @@ struct PairTraits {
   PairClass pair_class;
 };
 
-inline constexpr int kErrorHidden = 12;
-inline constexpr int kErrorWeightLimit_q10 = 14 * 1024;
+inline constexpr int kErrorHidden = 16;
+inline constexpr int kErrorWeightLimit_q10 = 12 * 1024;
 
 struct ErrorModel {
   uint8_t traits;  ///< kPairTraits or kTraits

@@ -43,10 +43,13 @@ int32_t lambert_exchange_log2_q24(const urad_scene& scene, const Patch& i, const
 
 /// What a sum knows of itself: log2 of each, by the sum.
 enum SumTrait {
-  sum_bend,     ///< second differences along both sides of the cells
+  sum_slope,    ///< first differences along both sides of the cells
+  sum_bend,     ///< second differences, or what the first make likely
   sum_doubt,    ///< what decides which cell is halved next
+  sum_worst,    ///< the greatest of those
   sum_change,   ///< what the halvings that made the cells changed, their signs kept
   sum_changes,  ///< the same without signs
+  sum_moved,    ///< what the sum changed by since there were half as many cells, about
   sum_near,     ///< sums of the cells that an edge or vertex of the other is near to
   sum_cells,    ///< log2 of the number of cells
   kSumTraits
@@ -67,7 +70,7 @@ inline constexpr int kMostRefinedCells = 64;
 ///   Doubt     of a cell: its second differences b along both sides as b (b/sum)^3, but at least
 ///             2^-5 of its greatest factor where an edge or vertex of the other is near by the
 ///             cell's size, and at least 2^-2 of what the halving that made it changed
-///   Memory    24 cells of 48 bytes on the stack; the least doubtful drop out, their doubt stays
+///   Memory    24 cells of 56 bytes on the stack; the least doubtful drop out, their doubt stays
 LambertSum lambert_refined(const urad_scene& scene, const Patch& i, const Patch& j, int points,
                            int halvings) noexcept;
 

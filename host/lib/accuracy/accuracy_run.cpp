@@ -89,9 +89,9 @@ void try_cornell(SceneSolver& cornell, const urad_net* general, AccuracyResults*
 
 std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* own) {
   std::vector<TableMethod> methods;
-  for (const char* text :
-       {"reference", "closed-form", "kernel", "moment", "lambert:1", "lambert:2", "lambert:3",
-        "gauss:2", "gauss:4", "hemicube:64", "fixed-kernel", "fixed-moment"})
+  for (const char* text : {"reference", "closed-form", "kernel", "moment", "lambert:1", "lambert:2",
+                           "lambert:3", "gauss:2", "gauss:4", "contour:2", "contour:4",
+                           "hemicube:64", "hemicube:128", "fixed-kernel", "fixed-moment"})
     methods.push_back({text, parse_method(text), {}});
   methods.push_back({"auto", {"auto", ""}, {{}, general}});
   methods.push_back({"net, general", {"net", ""}, {{}, general}});
@@ -120,7 +120,7 @@ void try_kinds(const AccuracyRequest& request, const urad_net* general, SceneSol
                AccuracyResults* results) {
   const NetChoice nets{{}, general};
   TrialRequest trials;
-  trials.methods = trial_methods(nets);
+  trials.methods = {{"auto", {"auto", ""}, nets}};
   trials.seed = request.pair_seed;
   trials.pairs = request.pairs / 2;
   trials.threads = request.threads;

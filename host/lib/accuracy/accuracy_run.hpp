@@ -68,7 +68,7 @@ struct AccuracyResults {
   std::vector<SceneMethodRow> cube7_methods;
   std::vector<MethodTable> free_quads;  ///< by decade, then convex, then concave
   MethodTable rooms;
-  MethodTrials trials;  ///< every kind of pair, half as many of each as free quads a decade
+  MethodTrials trials;  ///< auto on every kind of pair, half as many of each as free quads a decade
   double auto_light = 0, auto_light_max = 0;  ///< of cube7, relative rms and greatest error of B
   std::optional<double> solve_instructions, pair_instructions, shot_instructions;
 };

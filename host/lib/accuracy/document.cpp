@@ -208,14 +208,9 @@ std::string accuracy_document(const AccuracyResults& results) {
       "meshes. " +
       results.rooms.title + ":\n\n" + method_table(results.rooms.rows);
   text +=
-      "\n### Kinds of pairs\n\nFree quads with their decades in equal parts, rooms, and what makes "
-      "form factors go wrong: `urad evaluate`. Bias is the mean of (F - exact) / exact. MAC: "
-      "multiply-adds of one pair, counted in the formulas. Auto is auto:0.01; of what it says of "
-      "its "
-      "error: how often the error is above it, and how far it is above the error. Its constants "
-      "were "
-      "fitted on other pairs (`urad evaluate --fit-auto`).\n" +
-      to_markdown(results.trials);
+      "\n### Kinds of pairs\n\nWalls that touch, slivers, cut and tiny patches, by decade of F and "
+      "by "
+      "kind, with every method's cost: [METHODS.md](METHODS.md).\n";
   text += "\n## Occlusion\n\n" + occluded_table(results);
   text +=
       "\n## Hostile input to the reference\n\nAsymmetry: largest |A_p F_pq - A_q F_qp| over the "

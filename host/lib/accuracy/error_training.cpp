@@ -13,7 +13,7 @@ namespace {
 
 using urad::kErrorHidden;
 
-constexpr int kBatch = 512, kSteps = 20000;
+constexpr int kBatch = 512;
 constexpr double kRate = 0.02, kLeastRate = 2e-4;
 constexpr double kMomentum = 0.9, kSquares = 0.999, kTiny = 1e-8;
 constexpr double kDecay = 1e-5;
@@ -93,7 +93,7 @@ urad::ErrorModel rounded(const Layers& net, const Scaling& scaling, int traits) 
       hidden_bias -= weight * scaling.mean[k];
     }
     model.hidden_bias_q18[h] =
-        std::int32_t(std::lround(std::clamp(hidden_bias, -1000., 1000.) * 0x1p18));
+        std::int32_t(std::lround(std::clamp(hidden_bias, -300., 300.) * 0x1p18));
     model.out_q8[h] = q8(net.out[h]);
   }
   return model;
@@ -102,7 +102,7 @@ urad::ErrorModel rounded(const Layers& net, const Scaling& scaling, int traits) 
 }  // namespace
 
 urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int traits,
-                                   double quantile, std::uint64_t seed) {
+                                   double quantile, std::uint64_t seed, int steps) {
   if (samples.empty()) throw Error("no pairs to fit the error of a way to; ask for more pairs");
   const Scaling scaling = scaling_of(samples, traits);
   Random random(seed);
@@ -114,7 +114,7 @@ urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int 
   Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(kBatch, traits + 1);
   Eigen::VectorXd errors(kBatch);
   double forgotten_mean = 1, forgotten_square = 1;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     for (int r = 0; r < kBatch; ++r) {
       const ErrorSample& sample = samples[std::size_t(random.below(int(samples.size())))];
       for (int k = 0; k < traits; ++k)
@@ -125,7 +125,7 @@ urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int 
     mean = kMomentum * mean + (1 - kMomentum) * slope;
     square = kSquares * square + (1 - kSquares) * slope.cwiseAbs2();
     forgotten_mean *= kMomentum, forgotten_square *= kSquares;
-    const double rate = kLeastRate + (kRate - kLeastRate) * (1 - double(step) / kSteps);
+    const double rate = kLeastRate + (kRate - kLeastRate) * (1 - double(step) / steps);
     all.array() -= rate * (mean.array() / (1 - forgotten_mean)) /
                    ((square.array() / (1 - forgotten_square)).sqrt() + kTiny);
     net.set(all);

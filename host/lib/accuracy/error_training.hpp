@@ -15,10 +15,12 @@ struct ErrorSample {
   float error = 0;                           ///< log2 of the relative error
 };
 
+inline constexpr int kErrorSteps = 30000;
+
 /// The network whose guess lies above `quantile` of the errors, all else equal: Adam [Kingma and Ba
 /// 2015] on the quantile loss [Koenker and Bassett 1978]. traits: the first so many are inputs.
 /// The same for the same samples and seed. No shifts. Throws Error when there are no samples.
 urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int traits,
-                                   double quantile, std::uint64_t seed);
+                                   double quantile, std::uint64_t seed, int steps = kErrorSteps);
 
 }  // namespace host

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <span>
+#include <optional>
 
 #include "accuracy/error_training.hpp"
 #include "accuracy/trial_pairs.hpp"
@@ -23,12 +23,16 @@ using urad::kPairTraits;
 using urad::kTraits;
 using urad::Way;
 
-constexpr double kQuantile = 0.97;       // of the networks; shifts see to the rest
-constexpr double kCovered = 0.992;       // of the pairs of a way and class
-constexpr double kGroupCovered = 0.988;  // the same, of one family or decade among them
-constexpr std::size_t kLeastGroup = 150;
+constexpr double kQuantile = 0.985;                  // of the networks; shifts see to the rest
+constexpr double kGuess = 0.7;                       // of guesses that only spare a sum
+constexpr double kCovered = 0.992;                   // of the pairs of a way and class
+constexpr double kGroupCovered = 0.991;              // the same, of one family or decade among them
+constexpr std::size_t kLeastGroup = 1000;            // outcomes, up to ten of a pair
 constexpr double kLeastError = -20, kMostError = 2;  // log2: beyond these nobody asks
-constexpr int kHalvings[] = {0, 1, 2, 4, 7, 12, 20, 31};
+constexpr std::size_t kHalvings[] = {0, 1, 2, 4, 7, 12, 20, 31};
+constexpr int kMostStops = 32;
+constexpr int kPasses = 3;
+constexpr std::int16_t kWorthTrying_q8 = -2 * 256;
 constexpr double kWanted[] = {-3.32, -5, -6.64, -8.3, -9.97};  // log2 of what may be asked for
 constexpr int kRounds = 5;
 
@@ -58,29 +62,67 @@ double log2_error(const Trial& trial, std::int32_t log2_g_q24) {
   return std::clamp(std::log2(std::fabs(f / trial.exact - 1)), kLeastError, kMostError);
 }
 
-/// What one way makes of every pair; a refined sum after each of kHalvings.
+ErrorSample sample_of(const Trial& trial, const urad::PairTraits& traits, std::int32_t log2_g_q24) {
+  ErrorSample sample;
+  sample.error = float(log2_error(trial, log2_g_q24));
+  for (std::size_t t = 0; t < kTraits; ++t) sample.trait[t] = float(traits.log2_q8[t]) / 256;
+  return sample;
+}
+
+/// What one way makes of every pair for which `wanted` (or null) says that it may be asked.
 std::vector<ErrorSample> samples_of(const std::vector<Trial>& trials, Way way,
+                                    const urad::ErrorModel* wanted,
                                     const ErrorFitRequest& request) {
-  const std::size_t stops = way == Way::refined ? std::size(kHalvings) : 1;
-  std::vector<ErrorSample> all(trials.size() * stops);
-  std::vector<char> known(all.size());
+  std::vector<std::optional<ErrorSample>> all(trials.size());
   parallel_for(trials.size(), request.threads, [&](std::size_t k) {
     const urad_scene& scene = trials[k].scene.pod();
-    for (std::size_t stop = 0; stop < stops; ++stop) {
-      urad::PairTraits traits;
-      std::int32_t log2_g_q24 = 0;
-      const std::size_t at = k * stops + stop;
-      known[at] = urad::exchange_by(scene, urad::patch_at(scene, 0), urad::patch_at(scene, 1), way,
-                                    request.net, kHalvings[stop], &log2_g_q24, &traits);
-      if (!known[at]) continue;
-      all[at].error = float(log2_error(trials[k], log2_g_q24));
-      for (std::size_t t = 0; t < kTraits; ++t) all[at].trait[t] = float(traits.log2_q8[t]) / 256;
-    }
+    urad::PairTraits traits;
+    std::int32_t log2_g_q24 = 0;
+    if (!urad::exchange_by(scene, urad::patch_at(scene, 0), urad::patch_at(scene, 1), way,
+                           request.net, &log2_g_q24, &traits))
+      return;
+    if (wanted && urad::error_q8(*wanted, traits) > kWorthTrying_q8) return;
+    all[k] = sample_of(trials[k], traits, log2_g_q24);
   });
   std::vector<ErrorSample> samples;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (known[k]) samples.push_back(all[k]);
+  for (const std::optional<ErrorSample>& one : all)
+    if (one) samples.push_back(*one);
   return samples;
+}
+
+/// The network of the refined sum: fitted to sums after some numbers of halvings, then to those at
+/// which it would stop itself, too. Stopping at the first guess that is low enough favours those
+/// that are too low [as imitation does: Ross, Gordon and Bagnell 2011].
+urad::ErrorModel refined_model(const std::vector<Trial>& trials, const ErrorFitRequest& request) {
+  std::vector<std::vector<urad::RefinedStop>> stops(trials.size());
+  parallel_for(trials.size(), request.threads, [&](std::size_t k) {
+    const urad_scene& scene = trials[k].scene.pod();
+    stops[k].resize(kMostStops);
+    stops[k].resize(std::size_t(urad::refined_stops(
+        scene, urad::patch_at(scene, 0), urad::patch_at(scene, 1), stops[k].data(), kMostStops)));
+  });
+  std::vector<ErrorSample> samples;
+  const auto add = [&](std::size_t k, std::size_t stop) {
+    const urad::RefinedStop& at = stops[k][std::min(stop, stops[k].size() - 1)];
+    samples.push_back(sample_of(trials[k], at.traits, at.log2_exchange_q24));
+  };
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    for (const std::size_t stop : kHalvings)
+      if (stop < stops[k].size()) add(k, stop);
+  urad::ErrorModel model{};
+  for (int pass = 0; pass < kPasses; ++pass) {
+    model = train_error_model(samples, kTraits, kQuantile, request.seed);
+    if (pass + 1 == kPasses) break;
+    for (std::size_t k = 0; k < trials.size(); ++k)
+      for (const double wanted : kWanted) {
+        if (stops[k].empty()) continue;
+        const auto good = std::find_if(stops[k].begin(), stops[k].end(), [&](const auto& stop) {
+          return urad::error_q8(model, stop.traits) <= 256 * wanted;
+        });
+        add(k, std::size_t(good - stops[k].begin()));
+      }
+  }
+  return model;
 }
 
 /// A network of ErrorModels, the way whose errors it is to guess, and how.
@@ -89,15 +131,14 @@ struct Task {
   urad::ErrorModel urad::ErrorModels::*model;
   Way way;
   int traits;
-  double quantile;
 };
 constexpr Task kTasks[] = {
-    {"kernel", &urad::ErrorModels::kernel, Way::kernel, kPairTraits, kQuantile},
-    {"network", &urad::ErrorModels::network, Way::network, kPairTraits, kQuantile},
-    {"point", &urad::ErrorModels::point, Way::point, kPairTraits, kQuantile},
-    {"four points", &urad::ErrorModels::four_points, Way::four_points, kTraits, kQuantile},
-    {"nine points and refined", &urad::ErrorModels::refined, Way::refined, kTraits, kQuantile},
-    {"four points, before", &urad::ErrorModels::before_four, Way::four_points, kPairTraits, 0.7},
+    {"kernel", &urad::ErrorModels::kernel, Way::kernel, kPairTraits},
+    {"network", &urad::ErrorModels::network, Way::network, kPairTraits},
+    {"point", &urad::ErrorModels::point, Way::point, kPairTraits},
+    {"four points", &urad::ErrorModels::four_points, Way::four_points, kTraits},
+    {"nine points and refined", &urad::ErrorModels::refined, Way::refined, kTraits},
+    {"four points, before", &urad::ErrorModels::before_four, Way::four_points, kPairTraits},
 };
 
 std::size_t task_of(Way way) {
@@ -152,7 +193,7 @@ void calibrate(const std::vector<Trial>& trials, const ErrorFitRequest& request,
     const urad::Patch p = urad::patch_at(scene, 0), q = urad::patch_at(scene, 1);
     urad::PairTraits traits{};
     std::int32_t log2_g_q24 = 0;
-    urad::exchange_by(scene, p, q, Way::kernel, nullptr, 0, &log2_g_q24, &traits);
+    urad::exchange_by(scene, p, q, Way::kernel, nullptr, &log2_g_q24, &traits);
     for (std::size_t level = 0; level < 2 * levels; ++level) {
       urad_counters counters{};
       outcomes[2 * levels * k + level] = {
@@ -197,11 +238,19 @@ std::string text_of(const urad::ErrorModel& model, const char* name) {
 std::string fitted_error_models(const ErrorFitRequest& request) {
   const std::vector<Trial> trials = trials_of(request, request.seed);
   urad::ErrorModels models{};
-  std::vector<std::vector<ErrorSample>> samples;
-  for (const Task& task : kTasks) samples.push_back(samples_of(trials, task.way, request));
-  parallel_for(std::size(kTasks), request.threads, [&](std::size_t k) {
-    models.*kTasks[k].model =
-        train_error_model(samples[k], kTasks[k].traits, kTasks[k].quantile, request.seed);
+  models.before_four = train_error_model(samples_of(trials, Way::four_points, nullptr, request),
+                                         kPairTraits, kGuess, request.seed);
+  parallel_for(task_of(Way::refined) + 1, request.threads, [&](std::size_t k) {
+    const Task& task = kTasks[task_of(Way::refined) - k];  // the longest first
+    ErrorFitRequest alone = request;
+    alone.threads = 1;
+    models.*task.model =
+        task.way == Way::refined
+            ? refined_model(trials, alone)
+            : train_error_model(
+                  samples_of(trials, task.way,
+                             task.way == Way::four_points ? &models.before_four : nullptr, alone),
+                  task.traits, kQuantile, request.seed);
   });
   const std::vector<Trial> others = trials_of(request, request.seed + 1);
   for (int round = 0; round < kRounds; ++round) calibrate(others, request, &models);

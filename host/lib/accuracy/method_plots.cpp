@@ -36,6 +36,11 @@ std::vector<PlotPoint> points_of(const MethodTrialTable& table, MethodCost cost)
 
 bool shown(const PlotPoint& point) { return point.cost > 0 && point.error > 0; }
 
+/// A table's title without its number of pairs.
+std::string kind_of(const std::string& title) {
+  return title.substr(0, std::min(title.find(" ("), title.rfind(", ")));
+}
+
 /// Labels on the front of a table.
 std::vector<std::string> front_of(const MethodTrialTable& table, MethodCost cost) {
   std::vector<PlotPoint> points = points_of(table, cost);
@@ -87,13 +92,35 @@ std::string front_table(const MethodTrials& trials) {
       for (const MethodTrialTable& table : trials.families) {
         const std::vector<std::string> front = front_of(table, cost);
         if (std::find(front.begin(), front.end(), row.label) == front.end()) continue;
-        names += (names.empty() ? "" : "; ") + table.title.substr(0, table.title.find(" ("));
+        names += (names.empty() ? "" : "; ") + kind_of(table.title);
       }
       return names.empty() ? std::string("none") : names;
     };
     text += fmt::format("| {} | {} | {} |\n", row.label, families(MethodCost::host_ns),
                         row.instructions ? families(MethodCost::m0_instructions) : "-");
   }
+  return text;
+}
+
+/// Figures of a survey on another machine, copied: time in ns, error on the cube, on free quads.
+std::string peer_table() {
+  struct Peer {
+    const char *program, *setting, *ns, *cube_rms, *quads_median, *quads_p95;
+  };
+  constexpr Peer kPeers[] = {
+      {"View3D 4.0", "eps 1e-2", "160", "3.4e-5", "-", "-"},
+      {"View3D 4.0", "eps 1e-4, its default", "115 to 187", "5.0e-6", "3.8e-6 (convex)",
+       "1.4e-4 (convex)"},
+      {"View3D 4.0", "eps 1e-6", "265 to 377", "2.6e-8", "7e-8 (convex)", "3.3e-6 (convex)"},
+      {"OpenViewFactor 0.3", "DAI", "105", "3.7e-3", "0.14", "1.1"},
+      {"OpenViewFactor 0.3", "SAI", "291", "4.8e-4", "0.071", "1.1"},
+  };
+  std::string text =
+      "| not measured in this run: figures of a survey | setting | ns per factor of the cube | "
+      "cube, RMS | free quads, median | p95 |\n| --- | --- | ---: | ---: | ---: | ---: |\n";
+  for (const Peer& p : kPeers)
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", p.program, p.setting, p.ns, p.cube_rms,
+                        p.quads_median, p.quads_p95);
   return text;
 }
 
