@@ -38,13 +38,14 @@ std::string method_document(const MethodTrials& trials, const MethodDocument& do
   std::string text = fmt::format(
       R"(# Methods, by kind of pair
 
-Written by `{}`: every method on the same pairs, in one
-run, against the reference. Free quads with their decades of F in equal parts, rooms, and what makes form factors go wrong. Median, p95, p99 and max are of |F - exact| / exact, bias is the mean of
-(F - exact) / exact. ns: one pair on one core of this host; compare rows, not machines. MAC: multiply-adds of one pair, counted
-in the formulas. The engine's methods (fixed-, net, auto, hemicube, legacy) start from a scene as it stands in flash, the others
-from vertices. legacy is the report's network, where its unit cube holds every pair. Hemicubes, which serve all receivers of a
-scene at once, stand beside the others on cube7 in [ACCURACY.md](ACCURACY.md). Auto's constants were fitted on other pairs
-(`urad evaluate --fit-auto`); its guesses at errors are counted in its cost.
+Written by `{}`:
+every method on the same pairs, in one run, against the reference. Free quads with their decades of F in equal parts, rooms,
+and what makes form factors go wrong. Median, p95, p99 and max are of |F - exact| / exact, bias is the mean of (F - exact) /
+exact. ns: processor time of a pair on this host; compare rows, not machines. MAC: multiply-adds of one pair, counted in the
+formulas. The engine's methods (fixed-, net, auto, legacy) start from a scene as it stands in flash, the others from vertices.
+legacy is the report's network, where its unit cube holds every pair. Hemicubes, which serve all receivers of a scene at once,
+stand beside the others on cube7 in [ACCURACY.md](ACCURACY.md). Auto's constants were fitted on other pairs (`urad evaluate
+--fit-auto`); its guesses at errors are counted in its cost.
 )",
       document.command);
   for (const std::string& chart : {document.time_chart, document.instruction_chart})

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "base/stopwatch.hpp"
 #include "method/engine_source.hpp"
 #include "method/pair_method.hpp"
 #include "network/evaluate.hpp"
@@ -19,16 +19,16 @@ constexpr double kLeastNs = 2e6;     // of all passes over the same pairs togeth
 constexpr int kLeastPasses = 3;
 constexpr double kPerFactor = 1.0 / 4294967296.0;
 
-/// Time of the fastest pass of several: others may use the machine, too.
+/// This thread's time of the fastest pass of several: others may use the machine, too.
 template <class Pass>
 double fastest_ns(const Pass& pass) {
   double best = std::numeric_limits<double>::infinity(), all = 0;
   for (int passes = 0; passes < kLeastPasses || all < kLeastNs; ++passes) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     pass();
-    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - start;
-    best = std::min(best, took.count());
-    all += took.count();
+    const double took = 1e9 * watch.seconds();
+    best = std::min(best, took);
+    all += took;
   }
   return best;
 }
