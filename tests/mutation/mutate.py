@@ -143,6 +143,8 @@ def main():
     options = parser.parse_intermixed_args()
     tests = {row[0]: row[1].split() for row in table("kernels.txt")}
     excused = {(row[0], row[1], row[2]): row[3] for row in table("survivors.txt")}
+    if options.files:
+        tests = {file: tests[file] for file in options.files}
     linked = {t for file, names in tests.items() if not (ENGINE / "include/urad" / file).exists() for t in names}
     bench = Bench(options.build.resolve(), options.work.resolve(), linked)
     for test in sorted(linked):
@@ -153,8 +155,6 @@ def main():
         path = next(p for p in (ENGINE / "src" / file, ENGINE / "include/urad" / file) if p.exists())
         found = mutants_of(path)
         all_count += len(found)
-        if options.files and file not in options.files:
-            continue
         draw = random.Random(f"{options.seed} {file}")
         chosen += sorted(draw.sample(found, min(options.each or len(found), len(found))), key=lambda m: (m.line, m.column))
     print(f"seed {options.seed}: {len(chosen)} of {all_count} mutants", flush=True)

@@ -1,0 +1,209 @@
+// Every pointer of every entry of urad.h as null, in turn; sizes too small, memory that is misaligned,
+// numbers out of range: a status, and nothing written.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hand_made_scene.hpp"
+#include "scene/fixed_scene.hpp"
+#include "urad/hemicube_table.hpp"
+#include "urad/urad.h"
+#include "weights/cube7.h"
+
+namespace {
+
+/// Calls `entry` with each pointer among `good` as null but for those in `optional`; all must give
+/// `expected`.
+template <class Result, class... Parameters>
+void null_in_turn(const char* name, Result (*entry)(Parameters...), std::tuple<Parameters...> good,
+                  Result expected, const std::vector<std::size_t>& optional = {}) {
+  const auto with_null = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+    using Parameter = std::tuple_element_t<k, std::tuple<Parameters...>>;
+    if constexpr (std::is_pointer_v<Parameter>) {
+      if (std::find(optional.begin(), optional.end(), k) != optional.end()) return;
+      auto bad = good;
+      std::get<k>(bad) = nullptr;
+      const Result got = std::apply(entry, bad);
+      CHECK_MESSAGE(got == expected, name, ", argument ", k);
+    }
+  };
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (with_null(std::integral_constant<std::size_t, k>{}), ...);
+  }
+  (std::index_sequence_for<Parameters...>{});
+}
+
+#define NULL_IN_TURN(entry, expected, optional, ...) \
+  null_in_turn(#entry, entry, {__VA_ARGS__}, expected, optional)
+
+using Optional = std::vector<std::size_t>;
+
+/// A cube of 9 patches a wall, and memory for everything.
+struct Room {
+  host::FixedScene fixed{test::cube(3)};
+  const urad_scene* scene = &fixed.pod();
+  std::vector<std::uint64_t> memory = std::vector<std::uint64_t>(1 << 16);
+  std::vector<std::uint32_t> light = std::vector<std::uint32_t>(1 << 12);
+  std::size_t bytes = memory.size() * 8, light_bytes = light.size() * 4;
+  std::vector<std::uint32_t> top = std::vector<std::uint32_t>(64), side = top;
+  urad_hemicube_table table{16, top.data(), side.data()};
+  urad_counters counters{};
+  urad_source source{};
+  urad_radiosity state{};
+
+  void start() {
+    REQUIRE(urad_pair_source_init(&source, scene, URAD_KERNEL_MOMENT, &urad_cube7, 0, &counters,
+                                  memory.data(), bytes) == URAD_OK);
+    REQUIRE(urad_radiosity_init(&state, scene, &source, 0, 9, light.data(), light_bytes) ==
+            URAD_OK);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("null scenes, nets and checksums") {
+  Room room;
+  std::uint32_t crc[2] = {}, f = 0;
+  const urad_pose_table table{};
+  CHECK(urad_scene_check(nullptr) == URAD_BAD_SCENE);
+  CHECK(urad_net_check(nullptr) == URAD_BAD_NET);
+  NULL_IN_TURN(urad_scene_crc32, URAD_BAD_ARGUMENT, Optional{}, room.scene, crc);
+  CHECK(urad_scene_verify(nullptr, crc) != URAD_OK);
+  CHECK(urad_scene_verify(room.scene, nullptr) == URAD_BAD_ARGUMENT);
+  NULL_IN_TURN(urad_pose_table_check, URAD_BAD_ARGUMENT, Optional{}, &table, room.scene);
+  CHECK(urad_longest_run(nullptr) == 0);
+  CHECK(urad_hemicube_source_bytes(nullptr, 32, 8, 0) == 0);
+  NULL_IN_TURN(urad_form_factor, URAD_BAD_ARGUMENT, (Optional{4, 7}), room.scene, 0, 20, 1,
+               &urad_cube7, 0, &f, &room.counters);
+  CHECK(urad_form_factor(room.scene, 54, 0, 1, nullptr, 0, &f, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_form_factor(room.scene, 0, 54, 1, nullptr, 0, &f, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_form_factor(room.scene, 0, 20, 2, nullptr, 0, &f, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_form_factor(room.scene, 0, 20, 1, nullptr, URAD_RAYS_MAX + 1, &f, nullptr) ==
+        URAD_BAD_ARGUMENT);
+}
+
+TEST_CASE("null arguments of sources, and memory that is too small or misaligned") {
+  Room room;
+  const urad_pose_table poses{};
+  void* const memory = room.memory.data();
+  NULL_IN_TURN(urad_pair_source_init, URAD_BAD_ARGUMENT, (Optional{3, 6}), &room.source, room.scene,
+               1, &urad_cube7, 0, &room.counters, memory, room.bytes);
+  NULL_IN_TURN(urad_pose_source_init, URAD_BAD_ARGUMENT, (Optional{4}), &room.source, room.scene,
+               &poses, &room.counters, memory, room.bytes);
+  NULL_IN_TURN(urad_hemicube_source_init, URAD_BAD_ARGUMENT, (Optional{6}), &room.source,
+               room.scene, &room.table, 0, 0, &room.counters, memory, room.bytes);
+  for (const urad_hemicube_table& bad :
+       {urad_hemicube_table{16, nullptr, room.side.data()},
+        urad_hemicube_table{16, room.top.data(), nullptr},
+        urad_hemicube_table{14, room.top.data(), room.side.data()},
+        urad_hemicube_table{130, room.top.data(), room.side.data()},
+        urad_hemicube_table{17, room.top.data(), room.side.data()}})
+    CHECK(urad_hemicube_source_init(&room.source, room.scene, &bad, 0, 0, &room.counters, memory,
+                                    room.bytes) == URAD_BAD_ARGUMENT);
+  CHECK(urad_hemicube_source_init(&room.source, room.scene, &room.table, 17, 0, &room.counters,
+                                  memory, room.bytes) == URAD_BAD_ARGUMENT);
+  const auto pairs = [&](void* at, std::size_t bytes) {
+    return urad_pair_source_init(&room.source, room.scene, 1, nullptr, 0, &room.counters, at,
+                                 bytes);
+  };
+  CHECK(pairs(memory, urad_pair_source_bytes() - 1) == URAD_OUT_OF_MEMORY);
+  CHECK(pairs(static_cast<char*>(memory) + 1, room.bytes - 8) == URAD_OUT_OF_MEMORY);
+  CHECK(pairs(memory, urad_pair_source_bytes()) == URAD_OK);
+  const std::size_t hemicube = urad_hemicube_source_bytes(room.scene, 16, 4, 0);
+  const auto cubes = [&](void* at, std::size_t bytes) {
+    return urad_hemicube_source_init(&room.source, room.scene, &room.table, 4, 0, &room.counters,
+                                     at, bytes);
+  };
+  CHECK(cubes(memory, hemicube - 1) == URAD_OUT_OF_MEMORY);
+  CHECK(cubes(static_cast<char*>(memory) + 4, hemicube) == URAD_OUT_OF_MEMORY);
+  CHECK(cubes(memory, hemicube) == URAD_OK);
+}
+
+TEST_CASE("a source's own function refuses null, and runs that are none") {
+  Room room;
+  room.start();
+  std::uint32_t f[9] = {};
+  const auto fill = [&](std::uint16_t shooter, std::uint16_t surface, std::uint16_t first,
+                        std::uint16_t count) {
+    return room.source.fill(room.source.context, shooter, surface, first, count, f);
+  };
+  CHECK(fill(0, 1, 9, 9) == URAD_OK);
+  CHECK(fill(54, 1, 9, 9) == URAD_BAD_ARGUMENT);
+  CHECK(fill(0, 6, 9, 9) == URAD_BAD_ARGUMENT);
+  CHECK(fill(0, 1, 8, 9) == URAD_BAD_ARGUMENT);
+  CHECK(fill(0, 1, 10, 9) == URAD_BAD_ARGUMENT);
+  CHECK(room.source.fill(nullptr, 0, 1, 9, 9, f) == URAD_BAD_ARGUMENT);
+  CHECK(room.source.fill(room.source.context, 0, 1, 9, 9, nullptr) == URAD_BAD_ARGUMENT);
+}
+
+TEST_CASE("null arguments of the solver and of light that changes") {
+  Room room;
+  room.start();
+  std::int32_t b = 0;
+  const std::int32_t dark[3] = {0, 0, 0}, negative[3] = {0, -1, 0}, huge[3] = {0, 0, (1 << 30) + 1};
+  const std::uint16_t grey[3] = {9, 9, 9}, beyond[3] = {9, 32769, 9};
+  urad_radiosity other{};
+  NULL_IN_TURN(urad_radiosity_init, URAD_BAD_ARGUMENT, (Optional{}), &other, room.scene,
+               &room.source, 0, 9, room.light.data(), room.light_bytes);
+  CHECK(urad_radiosity_init(&other, room.scene, &room.source, 0, 0, room.light.data(),
+                            room.light_bytes) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_init(&other, room.scene, &room.source, 0, 9, room.light.data(), 100) ==
+        URAD_OUT_OF_MEMORY);
+  CHECK(urad_radiosity_step(nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_steps(nullptr, 1, 0, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_done(nullptr, 0) == 1);
+  CHECK(urad_radiosity_error_uq32(nullptr) == 0);
+  CHECK(urad_radiosity_audit(nullptr, nullptr) == 0);
+  NULL_IN_TURN(urad_radiosity_get, URAD_BAD_ARGUMENT, Optional{}, &room.state, 0, 0, &b);
+  NULL_IN_TURN(urad_radiosity_display, URAD_BAD_ARGUMENT, Optional{}, &room.state, 0, 0, &b);
+  CHECK(urad_radiosity_get(&room.state, 54, 0, &b) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_get(&room.state, 0, 3, &b) == URAD_BAD_ARGUMENT);
+  std::vector<std::uint32_t> kept(URAD_RELIGHT_BYTES(54) / 4);
+  CHECK(urad_radiosity_set_emission(&room.state, 0, dark) ==
+        URAD_BAD_ARGUMENT);  // nothing kept yet
+  NULL_IN_TURN(urad_radiosity_relight_init, URAD_BAD_ARGUMENT, Optional{}, &room.state,
+               static_cast<void*>(kept.data()), kept.size() * 4);
+  CHECK(urad_radiosity_relight_init(&room.state, kept.data(), kept.size() * 4 - 1) ==
+        URAD_OUT_OF_MEMORY);
+  CHECK(urad_radiosity_relight_init(&room.state, reinterpret_cast<char*>(kept.data()) + 1,
+                                    kept.size() * 4) == URAD_OUT_OF_MEMORY);
+  REQUIRE(urad_radiosity_relight_init(&room.state, kept.data(), kept.size() * 4) == URAD_OK);
+  NULL_IN_TURN(urad_radiosity_set_emission, URAD_BAD_ARGUMENT, Optional{}, &room.state, 0,
+               static_cast<const std::int32_t*>(dark));
+  CHECK(urad_radiosity_set_emission(&room.state, 54, dark) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_set_emission(&room.state, 0, negative) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_set_emission(&room.state, 0, huge) == URAD_BAD_ARGUMENT);
+  urad_material stranger{};
+  NULL_IN_TURN(urad_radiosity_set_reflectance, URAD_BAD_ARGUMENT, Optional{}, &room.state,
+               &stranger, static_cast<const std::uint16_t*>(grey));
+  CHECK(urad_radiosity_set_reflectance(&room.state, &stranger, grey) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_set_reflectance(&room.state,
+                                       const_cast<urad_material*>(room.scene->material),
+                                       beyond) == URAD_BAD_ARGUMENT);
+}
+
+TEST_CASE("null grids and lights") {
+  urad_grid grid{};
+  CHECK(urad_grid_make({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, 1, 1, nullptr) == URAD_BAD_ARGUMENT);
+  const std::int32_t most = URAD_COORDINATE_MAX;
+  for (const urad_point& origin : {urad_point{-most - 1, 0, 0}, urad_point{0, -most - 1, 0},
+                                   urad_point{0, 0, -most - 1}, urad_point{0, 0, most + 1}})
+    CHECK(urad_grid_make(origin, {99, 0, 0}, {0, 99, 0}, 1, 1, &grid) == URAD_BAD_ARGUMENT);
+  for (const urad_point& step : {urad_point{most, 0, 0}, urad_point{-most, 0, 0},
+                                 urad_point{0, 0, most}, urad_point{0, 0, -most}})
+    CHECK(urad_grid_make({0, 0, 0}, step, {0, 99, 0}, 2, 2, &grid) == URAD_BAD_ARGUMENT);
+  CHECK(grid.count_u == 0);
+  std::uint32_t radiosity[3] = {};
+  const std::uint16_t basis[3] = {5, 5, 5};
+  urad_light light{};
+  light.basis = basis;
+  NULL_IN_TURN(urad_light_mix, URAD_BAD_ARGUMENT, Optional{},
+               static_cast<const urad_light*>(&light), 1, 1,
+               static_cast<std::uint32_t*>(radiosity));
+  CHECK(urad_light_mix(&light, 32768, 1, radiosity) == URAD_BAD_ARGUMENT);
+  light.basis = nullptr;
+  CHECK(urad_light_mix(&light, 1, 1, radiosity) == URAD_BAD_ARGUMENT);
+}
