@@ -183,11 +183,40 @@ TEST_CASE("a lamp switched off and on again, and what is refused") {
   CHECK(urad_radiosity_set_emission(&solve.state, 0, bright) == URAD_OVERFLOW);
   CHECK(urad_radiosity_set_reflectance(&solve.state, &stranger, full) == URAD_BAD_ARGUMENT);
   CHECK(urad_radiosity_set_reflectance(&solve.state, &room.material[1], over) == URAD_BAD_ARGUMENT);
-  CHECK(urad_radiosity_set_reflectance(&solve.state, &room.material[0], full) ==
-        URAD_BAD_ARGUMENT);  // the lamp has been black
   CHECK(urad_radiosity_set_reflectance(nullptr, &room.material[1], full) == URAD_BAD_ARGUMENT);
   CHECK(solve.memory == power);
   CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+}
+
+TEST_CASE("a wall that was black reflects as from the start, in any channel") {
+  for (const unsigned flags : {0u, unsigned{URAD_OVERSHOOT}}) {
+    std::mt19937 random(41 + flags);
+    TableScene room(6, 9, URAD_SCENE_CLOSED);
+    room.fill_reciprocal(random, 1);
+    test::furnish(&room);
+    room.set(2, {0, 0.6, 0}, {0, 0, 0});
+    Solve solve(room, flags);
+    std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
+    REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
+            Status::ok);
+    std::uint32_t shots = 0;
+    CHECK(urad::radiosity_steps(&solve.state, 60, 0, &shots) == Status::ok);  // on the way
+    const std::uint16_t grey[3] = {20000, 15000, 24000}, black[3] = {0, 0, 0};
+    CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[2], grey) == Status::ok);
+    CHECK(urad::radiosity_audit(solve.state, nullptr));
+    solve.run(1e-5);
+    INFO("rms ", solve.relative_rms());
+    CHECK(solve.relative_rms() < 3e-3);
+    // The lamp, too, and back again.
+    CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[0], grey) == Status::ok);
+    solve.run(1e-5);
+    CHECK(solve.relative_rms() < 3e-3);
+    CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[0], black) == Status::ok);
+    CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[2], black) == Status::ok);
+    solve.run(1e-5);
+    CHECK(solve.relative_rms() < 3e-3);
+    CHECK(urad::radiosity_audit(solve.state, nullptr));
+  }
 }
 
 TEST_CASE("one basis per light: the mix is the light of a solve with those colours") {

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "scene/builtin.hpp"
+#include "solve/exported_visibility.hpp"
 
 namespace {
 
@@ -42,6 +43,13 @@ constexpr const char* kChecksum =
     "MIX(s->blocker[k].low.x);\n"
     "    MIX(s->blocker[k].high.z); MIX(s->blocker[k].first_vertex); MIX(s->blocker[k].surface); "
     "}\n"
+    "  for (k = 0; k < s->bounds_count; ++k) { MIX(s->bounds[k].low.y); MIX(s->bounds[k].high.x); "
+    "MIX(s->bounds[k].end); MIX(s->bounds[k].next); }\n"
+    "  if (s->visibility) {\n"
+    "    MIX(s->visibility->bits); MIX(s->visibility->patch_count);\n"
+    "    for (k = 0; k < s->patch_count; ++k) MIX(s->visibility->row[k]);\n"
+    "    for (k = 0; k < s->visibility->byte_count; ++k) MIX(s->visibility->code[k]);\n"
+    "  }\n"
     "  if (s->log2_scale_q24) for (k = 0; k < s->patch_count; ++k) MIX(s->log2_scale_q24[k]);\n"
     "  return h;\n"
     "}\n";
@@ -73,6 +81,14 @@ uint32_t checksum(const urad_scene& s) {
     mix(s.blocker[k].normal_q30.x), mix(s.blocker[k].low.x), mix(s.blocker[k].high.z);
     mix(s.blocker[k].first_vertex), mix(s.blocker[k].surface);
   }
+  for (uint32_t k = 0; k < s.bounds_count; ++k) {
+    mix(s.bounds[k].low.y), mix(s.bounds[k].high.x), mix(s.bounds[k].end), mix(s.bounds[k].next);
+  }
+  if (s.visibility) {
+    mix(s.visibility->bits), mix(s.visibility->patch_count);
+    for (uint32_t k = 0; k < s.patch_count; ++k) mix(s.visibility->row[k]);
+    for (uint32_t k = 0; k < s.visibility->byte_count; ++k) mix(s.visibility->code[k]);
+  }
   if (s.log2_scale_q24)
     for (uint32_t k = 0; k < s.patch_count; ++k) mix(s.log2_scale_q24[k]);
   return h;
@@ -90,6 +106,9 @@ TEST_CASE(
   for (const std::string name : {"cube7", "cornell"}) {
     const host::Scene scene = host::load_scene(name);
     host::FixedScene fixed(scene);
+    if (!scene.convex)
+      fixed.set_visibility(
+          host::make_visibility(scene, fixed, host::VisibilityCode::fractions, 16, 0));
     if (scene.closed) fixed.set_scale(std::vector<double>(scene.patches.size(), 1.001));
     std::ofstream(folder / (name + ".h")) << host::scene_to_c(fixed, name, "urad bake " + name);
     program +=

@@ -3,6 +3,7 @@
 
 #include "scene/builtin.hpp"
 #include "scene/fixed_scene.hpp"
+#include "solve/exported_visibility.hpp"
 #include "stress/open_scene.hpp"
 #include "urad/urad.h"
 
@@ -33,7 +34,12 @@ TEST_CASE("every single-bit fault of a scene is found: grids, polygon lists, blo
       {{{{0.2, 0.2, 0.5}, {0.8, 0.2, 0.5}, {0.5, 0.8, 0.5}}, {}}});
   plates.set_scale({1, 0.5});
   CHECK(missed_bits(plates) == 0);
-  CHECK(missed_bits(host::FixedScene(host::load_scene("louvre", {1, 0}))) == 0);
+  const host::Scene louvre = host::load_scene("louvre", {1, 0});
+  host::FixedScene sighted(louvre);
+  CHECK(missed_bits(sighted) == 0);
+  sighted.set_visibility(
+      host::make_visibility(louvre, sighted, host::VisibilityCode::fractions, 16, 0));
+  CHECK(missed_bits(sighted) == 0);
 }
 
 TEST_CASE("null is refused, and so is another scene's CRC") {

@@ -79,6 +79,19 @@ bool shots(port::Writer& labels, const char* label, unsigned flags) {
   return good;
 }
 
+/// Lights that change colour: one, then two. Any numbers will do for a basis.
+void lights(port::Writer& labels) {
+  if (kScene.patch_count > URAD_PATCHES_MAX) return;
+  const auto* const basis = reinterpret_cast<const uint16_t*>(g_memory + 3 * kScene.patch_count);
+  const urad_light light[2] = {{basis, {32768, 16384, 8192}}, {basis, {8192, 16384, 32768}}};
+  for (uint16_t count = 1; count <= 2; ++count) {
+    URAD_REGION_BEGIN();
+    urad::light_mix(light, count, kScene.patch_count, g_memory);
+    URAD_REGION_END();
+    labels.text(count == 1 ? "light_1\n" : "light_2\n");
+  }
+}
+
 }  // namespace
 
 int run() {
@@ -106,6 +119,7 @@ int run() {
          shots(labels, "solver_all",
                URAD_OVERSHOOT | URAD_SKIP_OFF_CHANNEL | URAD_SKIP_OFF_BLACK | URAD_SKIP_OFF_DARK) &&
          good;
+  lights(labels);
   labels.flush();
   port::close(file);
   return good && !labels.failed() ? 0 : 1;

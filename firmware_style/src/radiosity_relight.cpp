@@ -47,34 +47,81 @@ void begin_again(Radiosity* s) noexcept {
   s->window_remaining = s->remaining;
 }
 
+/// Power that has met a patch so far, gathered over what all others have shot: a patch that reflects
+/// nothing has kept no other trace of it. A_k F_kj = A_j F_jk, so that one row of factors will do.
+Status gather_met(Radiosity* s, uint16_t patch, int64_t* met) noexcept {
+  const urad_scene& scene = *s->scene;
+  const urad_surface& own = scene.surface[surface_of(scene, patch)];
+  const int32_t log2_own_q24 = log2_area_of(own, uint32_t(patch - own.first_patch));
+  met[0] = met[1] = met[2] = 0;
+  for (uint32_t k = 0; k < scene.surface_count; ++k) {
+    const urad_surface& surface = scene.surface[k];
+    const uint32_t end = uint32_t{surface.first_patch} + surface.patch_count;
+    for (uint32_t first = surface.first_patch, count; first < end; first += count) {
+      count = end - first < s->longest_run ? end - first : s->longest_run;
+      const urad_status status = s->source.fill(s->source.context, patch, uint16_t(k),
+                                                uint16_t(first), uint16_t(count), s->factors);
+      if (status != URAD_OK) return Status(status);
+      for (uint32_t n = 0; n < count; ++n) {
+        const uint32_t j = first + n;
+        if (j == patch || s->factors[n] == 0) continue;
+        const int32_t log2_ratio_q24 =
+            log2_own_q24 - log2_area_of(surface, j - surface.first_patch);
+        // F < 2^32 and |shot| < 2^31: the product fits, and what is left of it times 2^33.
+        for (uint32_t c = 0; c < 3; ++c) {
+          const int64_t part = round_shift(int64_t{s->factors[n]} * s->shot[3 * j + c], 31);
+          met[c] += times_exp2(part, log2_ratio_q24);
+        }
+      }
+    }
+  }
+  // Each was kept with a bit more than a unit.
+  for (int c = 0; c < 3; ++c) met[c] = round_shift(met[c], 1);
+  return Status::ok;
+}
+
 /// What one patch of a material reflects more than it did when its reflectance changes.
-bool reflected_more(const Radiosity& s, uint32_t patch, const urad_material& from,
-                    const uint16_t* to_uq15, int64_t* more) noexcept {
+Status reflected_more(Radiosity* s, uint32_t patch, const urad_material& from,
+                      const uint16_t* to_uq15, int64_t* more) noexcept {
+  int64_t met[3];
+  bool gathered = false;
   for (uint32_t c = 0; c < 3; ++c) {
     const uint32_t at = 3 * patch + c;
-    const int64_t reflected = int64_t{s.shot[at]} + s.unshot[at] - s.emitted[at];
     const int32_t rise = int32_t(to_uq15[c]) - from.reflectance_uq15[c];
     more[c] = 0;
-    if (reflected == 0 || rise == 0) continue;
-    // |reflected| < 2^33 and |rise| <= 2^15; rounded by adding half the divisor.
+    if (rise == 0) continue;
     const uint32_t old = from.reflectance_uq15[c];
+    if (old == 0) {
+      if (!gathered) {
+        const Status status = gather_met(s, uint16_t(patch), met);
+        if (status != Status::ok) return status;
+        gathered = true;
+      }
+      more[c] = round_shift(met[c] * rise, 15);
+      continue;
+    }
+    const int64_t reflected = int64_t{s->shot[at]} + s->unshot[at] - s->emitted[at];
+    if (reflected == 0) continue;
+    // |reflected| < 2^33 and |rise| <= 2^15; rounded by adding half the divisor.
     const uint64_t product = magnitude(reflected) * magnitude(rise) + old / 2;
     const int64_t size = ratio_q(int64_t(product), old, 0);
     more[c] = (reflected < 0) == (rise < 0) ? size : -size;
   }
-  return changed(s, patch, more).fits;
+  return changed(*s, patch, more).fits ? Status::ok : Status::overflow;
 }
 
+/// Until a visit is not ok.
 template <typename Visit>
-bool for_each_patch_of(const urad_scene& scene, uint32_t material, Visit visit) noexcept {
+Status for_each_patch_of(const urad_scene& scene, uint32_t material, Visit visit) noexcept {
   for (uint32_t k = 0; k < scene.surface_count; ++k) {
     const urad_surface& surface = scene.surface[k];
     if (surface.material != material) continue;
     for (uint32_t place = 0; place < surface.patch_count; ++place) {
-      if (!visit(surface.first_patch + place)) return false;
+      const Status status = visit(surface.first_patch + place);
+      if (status != Status::ok) return status;
     }
   }
-  return true;
+  return Status::ok;
 }
 
 }  // namespace
@@ -134,23 +181,26 @@ Status radiosity_set_reflectance(Radiosity* s, urad_material* material,
   while (number < scene.material_count && scene.material + number != material) ++number;
   if (number == scene.material_count) return Status::bad_argument;
   for (int c = 0; c < 3; ++c) {
-    const uint16_t to = reflectance_uq15[c];
-    if (to > 32768 || (to != 0 && material->reflectance_uq15[c] == 0)) return Status::bad_argument;
+    if (reflectance_uq15[c] > 32768) return Status::bad_argument;
   }
   int64_t more[3];
-  const bool fits = for_each_patch_of(scene, number, [&](uint32_t patch) {
-    return reflected_more(*s, patch, *material, reflectance_uq15, more);
-  });
-  if (!fits) return Status::overflow;
-  for_each_patch_of(scene, number, [&](uint32_t patch) {
-    reflected_more(*s, patch, *material, reflectance_uq15, more);
+  // Once to see that all fits, and once more to write.
+  const auto rise = [&](uint32_t patch) {
+    return reflected_more(s, patch, *material, reflectance_uq15, more);
+  };
+  Status status = for_each_patch_of(scene, number, rise);
+  if (status != Status::ok) return status;
+  status = for_each_patch_of(scene, number, [&](uint32_t patch) {
+    const Status risen = rise(patch);
+    if (risen != Status::ok) return risen;
     write(s, patch, changed(*s, patch, more));
     for (int c = 0; c < 3; ++c) {
       s->reflected[c] += more[c];
       s->ledger.absorbed[c] -= more[c];
     }
-    return true;
+    return Status::ok;
   });
+  if (status != Status::ok) return status;
   for (int c = 0; c < 3; ++c) material->reflectance_uq15[c] = reflectance_uq15[c];
   measure_scene(s);
   begin_again(s);

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   SceneOption scene;
-  std::string methods = "exact,net,hemicube:64,hybrid:64", net, folder, instructions;
+  std::string methods = "exact,net,hemicube:64,hybrid:64", net, folder, instructions, visibility;
   double error = 0.001;
   int size = 480;
   bool animate = false;
@@ -41,6 +41,7 @@ std::string command_of(const Options& options) {
   if (options.scene.mesh.patch_size > 0)
     text += fmt::format(" --patch-size {}", options.scene.mesh.patch_size);
   if (options.error != Options{}.error) text += fmt::format(" --error {}", options.error);
+  if (!options.visibility.empty()) text += " --visibility " + options.visibility;
   if (options.animate) text += " --animate";
   if (options.size != Options{}.size) text += fmt::format(" --size {}", options.size);
   if (!options.net.empty()) text += " --net " + options.net;
@@ -165,6 +166,11 @@ void run(const Options& options, const Common& common) {
   report.version = URAD_VERSION;
   report.command = command_of(options);
   report.facts = facts(scene, solver);
+  if (!options.visibility.empty()) {
+    const host::VisibilityCode code = host::parse_visibility_code(options.visibility);
+    report.facts.push_back(
+        {"Exported visibility, in flash", host::to_line(solver.use_visibility(code))});
+  }
   report.network = network_facts(nets.file());
   report.reproduce = {report.command};
 
@@ -259,6 +265,9 @@ void add_bake(CLI::App& app, const Common& common) {
   command->add_flag("--animate", options->animate,
                     "Also animated PNGs of light that changes: a strip of the lamp that moves, a "
                     "wall that is painted; by the first method's factors");
+  command->add_option("--visibility", options->visibility,
+                      "Export what every pair sees, so that the chip makes no rays: bits or "
+                      "fractions (4 bits); net and other pair methods then solve with it");
   command->add_option("--instructions", options->instructions,
                       "Counted Cortex-M0 instructions (bench/icount)");
   command->add_option("-o,--out", options->folder, "Folder to write into")->required();

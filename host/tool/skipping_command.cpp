@@ -20,15 +20,18 @@ void run(const Options& options, const Common& common) {
   const Nets nets("");
   std::vector<host::SkipReport> reports;
   for (const std::string& scene : options.scenes) {
-    const fs::path counted = fs::path(options.instructions) / (scene + ".json");
-    reports.push_back(host::skip_report(scene, nets.choice(),
-                                        options.instructions.empty() ? "" : counted.string(),
-                                        common.threads));
+    reports.push_back(
+        host::skip_report(scene, nets.choice(), options.instructions, common.threads));
   }
   std::string command = "urad skipping";
   if (!options.instructions.empty()) command += " --instructions " + options.instructions;
   const fs::path chart = fs::path(options.out).replace_extension(".svg");
   host::write_file_atomically(chart.string(), host::skip_chart(reports));
+  for (const host::SkipReport& report : reports) {
+    const fs::path early =
+        chart.parent_path() / (chart.stem().string() + "_" + report.scene + ".svg");
+    host::write_file_atomically(early.string(), host::early_chart(report));
+  }
   host::write_file_atomically(
       options.out,
       host::skip_document(reports, command + " -o " + options.out, chart.filename().string()));
@@ -42,7 +45,7 @@ void add_skipping(CLI::App& app, const Common& common) {
       app.add_subcommand("skipping", "What every skip saves in the standard scenes: a document");
   command->add_option("--scenes", options->scenes, "Scenes")->delimiter(',')->capture_default_str();
   command->add_option("--instructions", options->instructions,
-                      "Folder of SCENE.json, counted by ./run skipping");
+                      "Folder of SCENE.json and SCENE.sight.json, counted by ./run skipping");
   command->add_option("-o,--out", options->out, "Document to write; the chart goes beside it")
       ->required();
   command->callback([options, &common] { run(*options, common); });

@@ -107,12 +107,13 @@ Status radiosity_set_emission(Radiosity* state, uint16_t patch, const int32_t* e
 
 /// Gives one material of the scene, which must be in RAM, another reflectance (UQ1.15, <= 32768).
 /// What its patches have reflected so far grows or shrinks in proportion, and the difference becomes
-/// unshot power. Cost: 500 instructions a patch of the material, 300 for every other.
+/// unshot power. In channels that have been black nothing tells what light has met them: it is gathered
+/// over what all patches have shot, by reciprocity (a hemicube's rows are not reciprocal, and leave
+/// their error). Cost: 500 instructions a patch of the material, 300 for every other; where it was
+/// black, two rows of factors a patch.
 ///
-/// bad_argument: not ready, `material` not in the scene's table, reflectance out of range, or 0 so
-/// far in a channel that is to reflect: a black wall keeps no trace of the light that met it, so
-/// the solve has to start again (any reflectance from 1/64 on will do to begin with). overflow as
-/// above. Nothing is then written.
+/// bad_argument: not ready, `material` not in the scene's table, reflectance out of range. overflow as
+/// above. A status of the source, at the first of the two looks. Nothing is then written.
 Status radiosity_set_reflectance(Radiosity* state, urad_material* material,
                                  const uint16_t* reflectance_uq15) noexcept;
 

@@ -213,6 +213,32 @@ std::string error_cost_svg(const std::vector<PlotPoint>& all, const PlotAxes& ax
   return out + "</svg>\n";
 }
 
+std::string curves_svg(const std::vector<PlotCurve>& curves, const PlotAxes& axes) {
+  double low_x = std::numeric_limits<double>::infinity(), high_x = 0, low_y = low_x, high_y = 0;
+  for (const PlotCurve& curve : curves)
+    for (const auto& [cost, error] : curve.points) {
+      low_x = std::min(low_x, cost), high_x = std::max(high_x, cost);
+      low_y = std::min(low_y, error), high_y = std::max(high_y, error);
+    }
+  if (high_x <= 0) return {};
+  const LogAxis x(low_x, high_x, kLeft, kWidth - kRight), y(low_y, high_y, kHeight - kBottom, kTop);
+  std::string body, key;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const char* const colour = plot_colour(k);
+    std::string path;
+    for (const auto& [cost, error] : curves[k].points)
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.at(cost), y.at(error));
+    if (!path.empty())
+      body += fmt::format("<path style=\"stroke:{};stroke-width:2\" d=\"{}\"/>\n", colour, path);
+    const double top = kHeight - kBottom - 12 - kLine * double(curves.size() - 1 - k);
+    key += fmt::format(
+        "<rect x=\"{:.0f}\" y=\"{:.1f}\" width=\"11\" height=\"4\" fill=\"{}\"/>"
+        "<text x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n",
+        kLeft + 10, top - 6, colour, kLeft + 26, top, escape_markup(curves[k].label));
+  }
+  return open_svg(kHeight, axes.title) + axes_svg(x, y, axes) + body + key + "</svg>\n";
+}
+
 std::string share_bars_svg(const std::vector<Bar>& bars, const std::string& title) {
   constexpr double kLabel = 170, kBarHeight = 20, kStep = 30;
   const double span = kWidth - kLabel - kRight;

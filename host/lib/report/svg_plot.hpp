@@ -28,6 +28,18 @@ std::string error_cost_svg(const std::vector<PlotPoint>& points, const PlotAxes&
 /// Indices of the points that no other beats in both, by rising cost.
 std::vector<std::size_t> pareto_front(const std::vector<PlotPoint>& points);
 
+struct PlotCurve {
+  struct Point {
+    double cost, error;  ///< both > 0
+  };
+  std::string label;
+  std::vector<Point> points;  ///< by rising cost
+};
+
+/// Error (as per cent) against cost, both logarithmic, a line per curve and a legend. Empty string when
+/// no curve has a point.
+std::string curves_svg(const std::vector<PlotCurve>& curves, const PlotAxes& axes);
+
 struct BarPart {
   std::string label;
   std::uint64_t value = 0;

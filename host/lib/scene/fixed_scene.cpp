@@ -22,6 +22,8 @@ struct FixedScene::Tables {
   std::vector<urad_grid> grid;
   std::vector<urad_polygon> polygon;
   std::vector<int32_t> log2_scale_q24;
+  VisibilityTables sight;
+  urad_visibility visibility{};
   urad_scene pod{};
   double units_per_length = 1;
   double exitance_unit = 1;
@@ -261,6 +263,18 @@ void FixedScene::set_scale(const std::vector<double>& scale) {
   for (const double d : scale)
     t.log2_scale_q24.push_back(log2_q24(d, "the repair factor of a patch"));
   t.pod.log2_scale_q24 = data_or_null(t.log2_scale_q24);
+}
+
+void FixedScene::set_visibility(VisibilityTables tables) {
+  Tables& t = *tables_;
+  if (tables.row.size() != t.pod.patch_count)
+    throw Error(
+        fmt::format("{} rows of visibility for {} patches", tables.row.size(), t.pod.patch_count));
+  t.sight = std::move(tables);
+  t.visibility = {t.pod.patch_count,  t.sight.bits,       0, std::uint32_t(t.sight.code.size()),
+                  t.sight.row.data(), t.sight.code.data()};
+  t.pod.visibility = &t.visibility;
+  t.pod.abi = URAD_SCENE_ABI_SIGHT;
 }
 
 FixedScene FixedScene::of_polygons(const std::vector<Polygon>& patches,

@@ -1,11 +1,21 @@
 // The engine's view of a host scene: owns the tables a urad_scene points to.
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "scene/scene.hpp"
 #include "urad/scene.h"
 
 namespace host {
+
+/// Codes of a urad_visibility (scene.h), a row a patch.
+struct VisibilityTables {
+  std::uint8_t bits = 4;
+  std::vector<std::uint32_t> row;
+  std::vector<std::uint8_t> code;
+  std::size_t bytes() const { return 16 + 4 * row.size() + code.size(); }  ///< of flash
+};
 
 /// Converts to scene units (|coordinate| <= 2^29; centred, scaled by a power of two) and chooses
 /// the units of exitance and power, powers of two, so that neither overflows: total emitted power /
@@ -21,6 +31,9 @@ class FixedScene {
   /// One d per patch, or none. Invalidates nothing but pod().log2_scale_q24. Throws Error on a
   /// wrong count. Symmetric repair: G' = d_i G d_j. Empty: none.
   void set_scale(const std::vector<double>& scale);
+  /// Visible parts that go out with the scene, instead of rays. Invalidates nothing but
+  /// pod().visibility. Throws Error on a wrong count of rows.
+  void set_visibility(VisibilityTables tables);
   /// A single pair (or any list of polygons) without materials: patch k is polygons[k], one surface
   /// each.
   static FixedScene of_polygons(const std::vector<Polygon>& patches,

@@ -90,6 +90,11 @@ std::string counted_or_dash(const SkipReport& r, const std::string& what) {
   return count > 0 ? grouped(count) : "-";
 }
 
+/// Of occluded scenes only.
+std::string sight_or_dash(const SkipReport& r, double count) {
+  return r.bytes_fractions && count > 0 ? grouped(count) : "-";
+}
+
 /// Row and solver together.
 double shot(const SkipReport& r, bool all_off) {
   return count_of(r, all_off ? "all" : "on") + count_of(r, all_off ? "solver_all" : "solver_on");
@@ -126,6 +131,24 @@ std::string instruction_table(const std::vector<SkipReport>& reports) {
   text += row("**saved at equal error**", reports, [](const SkipReport& r) {
     return shot(r, false) > 0 ? fmt::format("**x {:.2f}**", shot(r, true) / shot(r, false)) : "-";
   });
+  text += row("error of B", reports,
+              [](const SkipReport& r) { return fmt::format("{:.2f} %", 100 * r.error_few); });
+  text += row("exported fractions, bytes of flash", reports,
+              [](const SkipReport& r) { return sight_or_dash(r, double(r.bytes_fractions)); });
+  text += row("exported fractions, all on: a row of factors", reports,
+              [](const SkipReport& r) { return sight_or_dash(r, count_of(r, "sight")); });
+  text += row("exported fractions: error of B", reports, [](const SkipReport& r) {
+    return r.bytes_fractions ? fmt::format("{:.2f} %", 100 * r.error_fractions) : "-";
+  });
+  text += row("**saved with exported fractions**", reports, [](const SkipReport& r) {
+    const double solver = count_of(r, "solver_on"), row = count_of(r, "sight");
+    return row > 0 ? fmt::format("**x {:.2f}**", shot(r, true) / (row + solver)) : "-";
+  });
+  text += row("exported bits, bytes of flash", reports,
+              [](const SkipReport& r) { return sight_or_dash(r, double(r.bytes_bits)); });
+  text += row("exported bits: error of B", reports, [](const SkipReport& r) {
+    return r.bytes_bits ? fmt::format("{:.2f} %", 100 * r.error_bits) : "-";
+  });
   text += row("64 rays a pair, all off: error of B", reports,
               [](const SkipReport& r) { return fmt::format("{:.2f} %", 100 * r.error_fixed); });
   text += row("64 rays by worth, all on: error of B", reports,
@@ -134,6 +157,24 @@ std::string instruction_table(const std::vector<SkipReport>& reports) {
     const double on = count_of(r, "worth_64");
     return on > 0 ? fmt::format("**x {:.2f}**", count_of(r, "all_64") / on) : "-";
   });
+  return text;
+}
+
+std::string light_line(const std::vector<SkipReport>& reports) {
+  std::string text;
+  for (const SkipReport& r : reports) {
+    const double one = count_of(r, "light_1"), two = count_of(r, "light_2");
+    if (two > one)
+      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", r.scene, grouped(two - one));
+  }
+  return text.empty() ? "not counted" : text;
+}
+
+std::string early_charts(const std::vector<SkipReport>& reports, const std::string& chart) {
+  std::string text;
+  for (const SkipReport& r : reports)
+    text += fmt::format("![{} against instructions]({}_{}.svg)\n", r.scene,
+                        chart.substr(0, chart.rfind('.')), r.scene);
   return text;
 }
 
@@ -173,7 +214,13 @@ Rows are those of the general network with {} rays for each pair that a blocker 
 
 Counted on an emulated Cortex-M0 over six rows spread evenly over each scene: times the instructions with all skips on. A
 shot is a row and the solver's part; shots to 1 % rms are those of overshooting with ambient term, below. Rays by worth: half
-the rays for pairs with a quarter of the factor, from 1/64 down.
+the rays for pairs with a quarter of the factor, from 1/64 down. Exported visibility (`urad bake --visibility`): no rays at all,
+of each pair 4 bits in flash (fractions) or one (bits), rows in runs where that is shorter.
+
+Blockers lie in flash in a hierarchy of boxes. What is left of them after the boxes casts a shadow: all segments between two
+patches pass outside of one edge, and the blocker is left out, or inside of all, and the pair is shut off without a ray. Where
+several blockers together stand between, or only a corner of one does, rays have to tell; they and the exact sums of near
+pairs, which no skip of blockers touches, are what "all on" is left with.
 
 {}
 ## Early answers
@@ -181,9 +228,16 @@ the rays for pairs with a quarter of the factor, from 1/64 down.
 Shots until what is shown is within so much (relative rms) of the converged light of the same factors, largest unshot power
 first. The last column: of the shots that overshooting with ambient term takes to 1 %.
 
-{})",
+{}
+The same against instructions, beside patches that shoot in turn with nothing skipped:
+
+{}
+## Lights that change colour
+
+One basis a light, mixed by `light_mix`, no shots. Instructions of a light more, all patches: {}.
+)",
       command, kSkipRays, chart, sweep_table(reports), instruction_table(reports),
-      early_table(reports));
+      early_table(reports), early_charts(reports, chart), light_line(reports));
 }
 
 }  // namespace host

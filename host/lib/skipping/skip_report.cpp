@@ -1,5 +1,6 @@
 #include "skipping/skip_report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -19,7 +20,6 @@ namespace {
 constexpr const char* kBoard = "microbit";
 
 std::map<std::string, double> read_counts(const std::string& path) {
-  if (path.empty()) return {};
   const auto json = nlohmann::json::parse(read_file(path), nullptr, false);
   if (json.is_discarded() || !json.is_object() || !json.contains(kBoard)) {
     throw Error(path + ": not a table of counted instructions; ./run skipping writes one");
@@ -55,10 +55,33 @@ EarlyAnswer early_answer(const Scene& scene, const EngineRows& rows, bool oversh
   int next = 0;
   for (int shots = 0; shots < most && next < 4; ++shots) {
     const double error = relative_rms(scene, ambient ? light.display() : light.radiosity(), truth);
+    answer.errors.push_back(error);
     for (; next < 4 && error <= kEarlyErrors[next]; ++next) answer.shots[next] = shots;
     if (light.step(1) == 0) break;
   }
   return answer;
+}
+
+/// Each patch shoots in turn what it has, whatever that is.
+std::vector<double> errors_by_number(const Scene& scene, const EngineRows& rows) {
+  const std::size_t n = rows.patches;
+  std::vector<Vec3> b(n), unshot(n);
+  for (std::size_t k = 0; k < n; ++k) b[k] = unshot[k] = scene.material_of(k).exitance;
+  const std::vector<Vec3> truth = Relighting(scene, rows, false).converged();
+  std::vector<double> errors;
+  for (std::size_t shots = 0; shots < 20 * n; ++shots) {
+    errors.push_back(relative_rms(scene, b, truth));
+    if (errors.back() <= kEarlyErrors[3]) break;
+    const std::size_t i = shots % n;
+    const Vec3 power = scene.patches[i].moments.area * unshot[i];
+    unshot[i] = Vec3(0);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Vec3 met = rows(i, j) / scene.patches[j].moments.area * power;
+      b[j] += scene.material_of(j).reflectance * met;
+      unshot[j] += scene.material_of(j).reflectance * met;
+    }
+  }
+  return errors;
 }
 
 }  // namespace
@@ -71,7 +94,11 @@ SkipReport skip_report(const std::string& name, const NetChoice& nets, const std
   report.scene = name;
   report.patches = scene.patches.size();
   report.blockers = scene.blockers.size();
-  report.instructions = read_counts(counted);
+  if (!counted.empty()) {
+    report.instructions = read_counts(counted + "/" + name + ".json");
+    if (!scene.convex)
+      report.instructions["sight"] = read_counts(counted + "/" + name + ".sight.json").at("on");
+  }
   report.pairs = pair_statistics(scene, threads, 64);
   const auto sweep = [&](const char* method, const EngineOptions& options) {
     return engine_rows(fixed, parse_method(method), nets, options, threads).counters;
@@ -86,14 +113,46 @@ SkipReport skip_report(const std::string& name, const NetChoice& nets, const std
     goal.error = 0.001;
     return solver.run(parse_method("net"), nets, goal).rms;
   };
+  report.error_few = error({.rays = kSkipRays});
   report.error_fixed = error({.rays = kManyRays});
   report.error_worth = error({.rays = kManyRays, .ray_error = kSkipBound});
+  if (!scene.convex) {
+    report.bytes_bits = solver.use_visibility(VisibilityCode::bits).bytes();
+    report.error_bits = error({});
+    report.bytes_fractions = solver.use_visibility(VisibilityCode::fractions).bytes();
+    report.error_fractions = error({});
+  }
   const EngineRows rows = repaired_rows(scene, nets, threads);
+  report.by_number = errors_by_number(scene, rows);
   for (const bool overshoot : {false, true}) {
     for (const bool ambient : {false, true})
       report.early.push_back(early_answer(scene, rows, overshoot, ambient));
   }
   return report;
+}
+
+std::string early_chart(const SkipReport& report) {
+  const auto count = [&](const char* what) {
+    const auto at = report.instructions.find(what);
+    return at == report.instructions.end() ? 0 : at->second;
+  };
+  const bool counted = count("on") > 0;
+  const double on = counted ? count("on") + count("solver_on") : 1;
+  const double off = counted ? count("all") + count("solver_all") : 1;
+  const auto curve = [&](const std::string& name, const std::vector<double>& errors, double shot) {
+    PlotCurve result{name, {}};
+    // Steps of a fiftieth, no shot twice.
+    for (double at = 1; at < double(errors.size()); at = std::max(at + 1, at * 1.02))
+      result.points.push_back({at * shot, errors[std::size_t(at)]});
+    return result;
+  };
+  std::vector<PlotCurve> curves{curve("in turn, nothing skipped", report.by_number, off)};
+  for (const EarlyAnswer& answer : report.early)
+    curves.push_back(curve(answer.name == "plain" ? "largest first, skips" : "+ " + answer.name,
+                           answer.errors, on));
+  return curves_svg(
+      curves, {"How early " + report.scene + " can be shown",
+               counted ? "Cortex-M0 instructions" : "shots", "", "rms error of what is shown"});
 }
 
 std::string skip_chart(const std::vector<SkipReport>& reports) {

@@ -102,6 +102,12 @@ const ExactSolution& SceneSolver::exact() {
   return *exact_;
 }
 
+const VisibilityTables& SceneSolver::use_visibility(VisibilityCode code) {
+  visibility_ = make_visibility(scene_, fixed_, code, rays_, threads_);
+  fixed_.set_visibility(visibility_);
+  return visibility_;
+}
+
 const PoseTable& SceneSolver::poses() {
   if (!poses_) poses_.emplace(make_pose_table(scene_, fixed_, threads_, rays_));
   return *poses_;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pose/pose_table.hpp"
+#include "solve/exported_visibility.hpp"
 #include "solve/fixed_solve.hpp"
 
 namespace host {
@@ -39,6 +40,8 @@ class SceneSolver {
 
   /// How methods of the engine are to run from now on.
   void use(const EngineOptions& options) { options_ = options; }
+  /// The engine's pairs take exported visible parts from now on, instead of rays.
+  const VisibilityTables& use_visibility(VisibilityCode code);
 
   const Scene& scene() const { return scene_; }
   const FixedScene& fixed() const { return fixed_; }
@@ -59,6 +62,7 @@ class SceneSolver {
   bool quiet_;
   int rays_;
   EngineOptions options_;
+  VisibilityTables visibility_;
   std::optional<ExactSolution> exact_;
   std::optional<PoseTable> poses_;
 };
