@@ -61,11 +61,11 @@ std::optional<double> multiply_adds(const TableMethod& method, const Work& work)
 std::optional<double> instructions(const TableMethod& method, const InstructionCounts& counts,
                                    const Work& work) {
   const std::string& name = method.spec.name;
-  if (name != "auto" && name != "fixed-lambert") return counts.per_pair(name);
+  if (name != "auto" && name != "fixed-lambert" && name != "net") return counts.per_pair(name);
   const auto moment = counts.per_pair("fixed-moment"), net = counts.per_pair("net");
   const auto point = counts.per_point();
   if (!moment || !net || !point) return std::nullopt;
-  const double kernel = name == "auto" ? (work.net ? *net : *moment) : 0;
+  const double kernel = name == "fixed-lambert" ? 0 : work.net ? *net : *moment;
   // A guess is charged what a network's multiply-add costs with all that goes with it.
   const double per_mac = (*net - *moment) / kCountedNetMacs;
   return kernel + *point * work.points + per_mac * work.guesses;
@@ -75,6 +75,14 @@ double points_of(const urad_scene& scene, const urad::Patch& p, const urad::Patc
   std::uint32_t sums = 0;
   urad::lambert_exchange_log2_q24(scene, p, q, points, &sums);
   return sums;
+}
+
+/// Whether a network leaves the pair to the exact sum.
+bool hands_over(const urad_scene& scene, const urad::Patch& p, const urad::Patch& q,
+                const urad_net& net) {
+  urad_counters counters{};
+  urad::exchange_log2_q24(scene, p, q, urad::Kernel::moment, &net, 0, &counters);
+  return counters.near_pairs > 0;
 }
 
 /// Multiply-adds of the guesses that led to a way: one before each, one after each sum.
@@ -109,14 +117,16 @@ std::vector<One> try_one(const PairSet& set, const TableMethod& method,
     One& one = result[k];
     one = {set.exact[k], values.f[k], values.ns / double(result.size()), {}, {}, {}, {}};
     Work work;
-    if (method.spec.name == "net") work.net = &method.nets.find(method.spec.argument);
-    if (is_auto || method.spec.name == "fixed-lambert") {
+    const bool is_net = method.spec.name == "net";
+    if (is_net) work.net = &method.nets.find(method.spec.argument);
+    if (is_auto || is_net || method.spec.name == "fixed-lambert") {
       const FixedScene scene = FixedScene::of_polygons({set.pairs[k].p, set.pairs[k].q}, {});
       const urad::Patch p = urad::patch_at(scene.pod(), 0), q = urad::patch_at(scene.pod(), 1);
       if (is_auto)
         judge(method, scene.pod(), p, q, &one, &work);
-      else
-        work.points = points_of(scene.pod(), p, q, method.spec.number(3, 1, 4));
+      else if (!is_net || hands_over(scene.pod(), p, q, *work.net))
+        work.points = points_of(scene.pod(), p, q,
+                                is_net ? urad::kHandOverPoints : method.spec.number(3, 1, 4));
     }
     one.multiply_adds = multiply_adds(method, work);
     if (request.instructions) one.instructions = instructions(method, *request.instructions, work);
