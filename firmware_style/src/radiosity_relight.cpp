@@ -217,8 +217,15 @@ void light_mix(const urad_light* light, uint16_t lights, uint16_t patches,
       const uint32_t colour = light[k].colour_uq15[c];
       if (colour == 0) continue;
       const uint16_t* basis = light[k].basis + c;
-      for (out = radiosity + c; out != end; out += 3, basis += 3) {
-        *out += (*basis * colour + 0x4000u) >> 15;
+      const auto add = [=](uint32_t* to, uint32_t b) { *to += (b * colour + 0x4000u) >> 15; };
+      out = radiosity + c;
+      if (patches & 1u) {
+        add(out, *basis);
+        out += 3, basis += 3;
+      }
+      for (; out != end; out += 6, basis += 6) {  // two at a time, as reflect()
+        add(out, basis[0]);
+        add(out + 3, basis[3]);
       }
     }
   }
