@@ -30,10 +30,11 @@ std::vector<Vec3> kept_solution(const std::string& name, const host::Scene& scen
 }
 
 /// B by the engine, solved to the end: all error is the factors'.
-std::vector<Vec3> engine_radiosity(const host::Scene& scene, const std::string& method, int rays) {
+std::vector<Vec3> engine_radiosity(const host::Scene& scene, const std::string& method,
+                                   const host::EngineOptions& options) {
   host::FixedScene fixed(scene);
   const host::MethodSpec spec = host::parse_method(method);
-  host::EngineRows rows = host::engine_rows(fixed, spec, kNets, {.rays = rays}, 0);
+  host::EngineRows rows = host::engine_rows(fixed, spec, kNets, options, 0);
   if (scene.closed) {
     Eigen::MatrixXd f(rows.patches, rows.patches);
     for (std::size_t i = 0; i < rows.patches; ++i) {
@@ -41,7 +42,7 @@ std::vector<Vec3> engine_radiosity(const host::Scene& scene, const std::string& 
         f(Eigen::Index(i), Eigen::Index(j)) = rows(i, j);
     }
     fixed.set_scale(host::symmetric_scale(scene, f));
-    rows = host::engine_rows(fixed, spec, kNets, {.rays = rays}, 0);
+    rows = host::engine_rows(fixed, spec, kNets, options, 0);
   }
   host::SolveGoal goal;
   goal.shots = 8 * int(rows.patches);
@@ -81,17 +82,24 @@ TEST_CASE("patches, walls and how many pairs see each other") {
   }
 }
 
-TEST_CASE("radiosity against the kept exact solutions: rays to 2 %, hybrid:64 to 3 % rms") {
+TEST_CASE(
+    "radiosity against the kept exact solutions: rays, also adaptive, to 2 %, hybrid:64 to 3 % "
+    "rms") {
   for (const char* name : kScenes) {
     CAPTURE(name);
     const host::Scene scene = host::load_scene(name);
     const std::vector<Vec3> exact = kept_solution(name, scene);
-    const double by_rays = host::relative_rms(scene, engine_radiosity(scene, "net", 16), exact);
+    const double by_rays =
+        host::relative_rms(scene, engine_radiosity(scene, "net", {.rays = 16}), exact);
+    // As many as a pair is worth, and patches cut where rays disagree.
+    const host::EngineOptions worth{.rays = 64, .ray_error = 1.0 / 64, .cuts = 2};
+    const double adaptive = host::relative_rms(scene, engine_radiosity(scene, "net", worth), exact);
     const double by_hybrid =
-        host::relative_rms(scene, engine_radiosity(scene, "hybrid:64", 16), exact);
-    MESSAGE(std::string(name) << ": rays " << 100 * by_rays << " % rms, hybrid:64 "
-                              << 100 * by_hybrid << " %");
+        host::relative_rms(scene, engine_radiosity(scene, "hybrid:64", {.rays = 16}), exact);
+    MESSAGE(std::string(name) << ": rays " << 100 * by_rays << " % rms, adaptive " << 100 * adaptive
+                              << " %, hybrid:64 " << 100 * by_hybrid << " %");
     CHECK(by_rays < 0.02);
+    CHECK(adaptive < 0.02);
     CHECK(by_hybrid < 0.03);
   }
 }
