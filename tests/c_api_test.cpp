@@ -53,6 +53,19 @@ struct FacingSquares {
 
 }  // namespace
 
+TEST_CASE("C: second moments that no patch has are refused: the bend of a pair overflowed") {
+  for (int k = 3; k < 6; ++k) {
+    FacingSquares squares;
+    CHECK(urad_scene_check(&squares.scene) == URAD_OK);
+    squares.grid[1].shape.spread_q15[k] = -32768;
+    CHECK(urad_scene_check(&squares.scene) == URAD_BAD_SCENE);
+    squares.grid[1].shape.spread_q15[k] = k == 3 ? 16384 : 0;
+    CHECK(urad_scene_check(&squares.scene) == URAD_OK);
+    squares.grid[1].shape.spread_q15[k] = k == 3 ? 16389 : 300;
+    CHECK(urad_scene_check(&squares.scene) == URAD_BAD_SCENE);
+  }
+}
+
 TEST_CASE("C: scene and net checks") {
   FacingSquares squares;
   CHECK(urad_scene_check(&squares.scene) == URAD_OK);

@@ -22,14 +22,23 @@ bool unit(const urad_point& n) noexcept {
   return magnitude(off) <= uint64_t{1} << 40;
 }
 
+/// M_ab^2 <= M_aa M_bb as in every matrix of second moments, but for its rounding. Then no |M v| is
+/// above |v|, which keeps the terms of the moment kernel in 32 bits.
+bool mixed(int32_t ab, int32_t aa, int32_t bb) noexcept {
+  constexpr int32_t slack = 2;
+  const int32_t least = int32_t(magnitude(ab)) - slack;
+  return least <= 0 || least * least <= (aa + slack) * (bb + slack);
+}
+
 bool good(const urad_shape& shape) noexcept {
   if (!unit(shape.normal_q30)) return false;
   if (magnitude(shape.log2_area_q24) > uint32_t(kLog2Max)) return false;
   if (magnitude(shape.log2_spread_q24) > uint32_t(kLog2Max)) return false;
   const int32_t trace = shape.spread_q15[0] + shape.spread_q15[1] + shape.spread_q15[2];
   if (trace < 32768 - 8 || trace > 32768 + 8) return false;
-  return shape.spread_q15[0] >= 0 && shape.spread_q15[1] >= 0 && shape.spread_q15[2] >= 0 &&
-         shape.fill_uq15 <= 32768;
+  const int16_t* m = shape.spread_q15;
+  return m[0] >= 0 && m[1] >= 0 && m[2] >= 0 && mixed(m[3], m[0], m[1]) &&
+         mixed(m[4], m[0], m[2]) && mixed(m[5], m[1], m[2]) && shape.fill_uq15 <= 32768;
 }
 
 /// The far corner is computed in 64 bits, so that steps and counts cannot wrap before they are

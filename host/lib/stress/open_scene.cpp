@@ -55,7 +55,14 @@ urad_shape shape(Choices* choices) {
   s.spread_q15[0] = std::int16_t(choices->below(32769) >> (choices->below(4)));
   s.spread_q15[1] = std::int16_t(choices->below(std::uint32_t(32769 - s.spread_q15[0])));
   s.spread_q15[2] = std::int16_t(std::min(32767, 32768 - s.spread_q15[0] - s.spread_q15[1]));
-  for (int k = 3; k < 6; ++k) s.spread_q15[k] = std::int16_t(choices->half());
+  const bool moments = choices->below(4) > 0;  // or what no patch has
+  constexpr int kPlaces[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  for (int k = 3; k < 6; ++k) {
+    const std::int16_t any = std::int16_t(choices->half());
+    const double most =
+        std::sqrt(double(s.spread_q15[kPlaces[k - 3][0]]) * s.spread_q15[kPlaces[k - 3][1]]);
+    s.spread_q15[k] = moments ? std::int16_t(any * 0x1p-15 * most) : any;
+  }
   s.fill_uq15 = std::uint16_t(choices->below(32769));
   return s;
 }
