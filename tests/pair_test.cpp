@@ -165,3 +165,13 @@ TEST_CASE("a distance just below a power of two does not overflow the direction"
   CHECK(std::abs(at.log2_kernel_q24 - under.log2_kernel_q24) < 100);
   CHECK(std::abs(at.log2_bend_q24 - under.log2_bend_q24) < 200);
 }
+
+TEST_CASE("the kernel of a pair that is far, small and grazing does not wrap: it is no light") {
+  urad_shape flat{{0, 0, 1 << 30}, -(60 << 24), -(60 << 24), {16384, 16384, 0, 0, 0, 0}, 10923, 0};
+  urad_shape other = flat;
+  other.normal_q30 = {0, 0, -(1 << 30)};
+  urad::PairKernel kernel{};
+  const std::int32_t far = 1 << 29;
+  REQUIRE(urad::pair_kernel(flat, {-far, -far, 0}, other, {far, far, 1}, &kernel));
+  CHECK(kernel.log2_kernel_q24 == -64 * (1 << 24));
+}

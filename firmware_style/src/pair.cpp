@@ -136,8 +136,13 @@ bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_s
 
   kernel->rho_uq22 = side[0].size_uq22 + side[1].size_uq22;
   kernel->rho_uq16 = kernel->rho_uq22 >> 6;
-  kernel->log2_kernel_q24 = (i.log2_area_q24 - log2_distance2_q24) + j.log2_area_q24 +
-                            (log2_p_q24 + log2_q_q24) - kLog2Pi_q24;
+  // Far pairs that graze each other reach 2^-180: all below 2^-64 is no light.
+  const int64_t log2_kernel_q24 = int64_t{i.log2_area_q24} + j.log2_area_q24 - log2_distance2_q24 +
+                                  (log2_p_q24 + log2_q_q24) - kLog2Pi_q24;
+  constexpr int32_t least_q24 = -64 * (1 << 24), most_q24 = 63 << 24;
+  kernel->log2_kernel_q24 = log2_kernel_q24 < least_q24  ? least_q24
+                            : log2_kernel_q24 > most_q24 ? most_q24
+                                                         : int32_t(log2_kernel_q24);
   kernel->log2_bend_q24 = bend_q24(t2_q22(side[0]) + t2_q22(side[1]));
   return true;
 }
