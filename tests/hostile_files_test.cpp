@@ -2,6 +2,8 @@
 // the input vanishes: an output is whole or it is not there, and training goes on where it was.
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -199,10 +201,12 @@ TEST_CASE("a folder that cannot be written: one sentence, and no file of it chan
   fs::create_directories(place);
   host::write_file_atomically((place / "b.csv").string(), "before");
   fs::permissions(place, fs::perms(0555));
-  const auto as_nobody = [] {
-    if (geteuid() == 0 && setuid(65534) != 0) _exit(126);  // root may write anywhere
+  // Root may write anywhere; after this the program that follows may not. Another user could not even
+  // read a checkout in root's home.
+  const auto as_owner = [] {
+    if (geteuid() == 0 && prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0) _exit(126);
   };
-  Program program(solve(scene, place / "b.csv"), folder / "said.txt", as_nobody);
+  Program program(solve(scene, place / "b.csv"), folder / "said.txt", as_owner);
   const int status = program.status();
   CAPTURE(program.said());
   CHECK(status == 1);
