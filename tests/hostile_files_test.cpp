@@ -19,6 +19,7 @@
 
 #include "base/file.hpp"
 #include "network/random.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -28,12 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kSeed = 19930719;
 
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(URAD_SCRATCH_DIR) / ("hostile_" + name);
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
+fs::path scratch(const std::string& name) { return test::scratch("hostile_" + name); }
 
 /// The program with these arguments in a process of its own.
 class Program {

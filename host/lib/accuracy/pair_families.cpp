@@ -7,6 +7,7 @@
 
 #include "geometry/planar.hpp"
 #include "geometry/validate.hpp"
+#include "network/random_direction.hpp"
 
 namespace host {
 
@@ -14,18 +15,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLeastArea = 1e-4, kLeastEdge = 0.01, kMargin = 1e-3;
-
-Vec3 direction(Random& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
-glm::dmat3 rotation(Random& random) {
-  const Vec3 x = direction(random);
-  const Vec3 y = glm::normalize(glm::cross(x, direction(random)));
-  return {x, y, glm::cross(x, y)};
-}
 
 template <class Map>
 PolygonPair mapped(PolygonPair pair, const Map& map) {
@@ -35,7 +24,7 @@ PolygonPair mapped(PolygonPair pair, const Map& map) {
 }
 
 PolygonPair rotated(const PolygonPair& pair, Random& random) {
-  const glm::dmat3 turn = rotation(random);
+  const glm::dmat3 turn = random_rotation(random);
   const Vec3 shift(random.uniform(), random.uniform(), random.uniform());
   return mapped(pair, [&](const Vec3& x) { return turn * x + shift; });
 }
@@ -109,7 +98,7 @@ PolygonPair hinge(double degrees, double w, double h, double l) {
 
 Polygon random_quad(Random& random) {
   for (;;) {
-    const glm::dmat3 axes = rotation(random);
+    const glm::dmat3 axes = random_rotation(random);
     Vec3 x(random.uniform(), random.uniform(), random.uniform());
     Polygon quad;
     bool inside = true;

@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "form_factor/reference.hpp"
 #include "geometry/validate.hpp"
+#include "network/random_direction.hpp"
 
 namespace host {
 
@@ -17,21 +18,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kTries = 60;
 constexpr double kLeastAspect = 1.0 / 20, kMostAspect = 20;
 
-Vec3 direction(Random& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
-glm::dmat3 rotation(Random& random) {
-  const Vec3 x = direction(random);
-  const Vec3 y = glm::normalize(glm::cross(x, direction(random)));
-  return {x, y, glm::cross(x, y)};
-}
-
 /// Free place and attitude, p and q in either order: no coordinate is 0 by chance of the recipe.
 PolygonPair placed(PolygonPair pair, Random& random) {
-  const glm::dmat3 turn = rotation(random);
+  const glm::dmat3 turn = random_rotation(random);
   const Vec3 shift(random.uniform(), random.uniform(), random.uniform());
   for (Polygon* polygon : {&pair.p, &pair.q})
     for (Vec3& x : polygon->outer) x = turn * x + shift;
@@ -105,7 +94,7 @@ PolygonPair partly_behind(Random& random) {
 PolygonPair slivers(Random& random) {
   const double thin = random.log_uniform(1e-3, 0.03);
   PolygonPair pair{rectangle(1, thin), rectangle(random.log_uniform(0.1, 1), 1)};
-  const glm::dmat3 turn = rotation(random);
+  const glm::dmat3 turn = random_rotation(random);
   const Vec3 shift(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1.5));
   for (Vec3& x : pair.q.outer) x = turn * x + shift;
   return placed(pair, random);
@@ -116,8 +105,8 @@ PolygonPair size_ratios(Random& random) {
   const double small = std::sqrt(random.log_uniform(1e-6, 0.1));
   PolygonPair pair{rectangle(small, small * random.log_uniform(0.3, 3)),
                    rectangle(1, 1, 0, -0.5, -0.5)};
-  const glm::dmat3 turn = rotation(random);
-  const Vec3 shift = direction(random) * random.log_uniform(0.1, 3);
+  const glm::dmat3 turn = random_rotation(random);
+  const Vec3 shift = random_direction(random) * random.log_uniform(0.1, 3);
   for (Vec3& x : pair.q.outer) x = turn * x + shift;
   return placed(pair, random);
 }
@@ -134,8 +123,8 @@ Polygon regular(int corners, Random& random) {
 
 PolygonPair few_corners(Random& random) {
   PolygonPair pair{regular(3, random), regular(random.below(2) ? 3 : 5, random)};
-  const glm::dmat3 turn = rotation(random);
-  const Vec3 shift = direction(random) * random.log_uniform(0.5, 10);
+  const glm::dmat3 turn = random_rotation(random);
+  const Vec3 shift = random_direction(random) * random.log_uniform(0.5, 10);
   const double size = random.log_uniform(0.3, 1);
   for (Vec3& x : pair.q.outer) x = turn * (size * x) + shift;
   return placed(pair, random);

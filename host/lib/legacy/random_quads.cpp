@@ -3,21 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "form_factor/reference.hpp"
 #include "geometry/validate.hpp"
+#include "network/random_direction.hpp"
 
 namespace host {
 
 namespace {
-
-/// Uniform on the sphere [Archimedes].
-Vec3 direction(Random& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi);
-  const double radius = std::sqrt(1 - z * z);
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
-}
 
 bool in_unit_cube(const Vec3& x) {
   return glm::all(glm::greaterThanEqual(x, Vec3(0))) && glm::all(glm::lessThanEqual(x, Vec3(1)));
@@ -39,7 +32,7 @@ std::optional<QuadPair> draw_pair(Random& random, const QuadRange& range) {
   std::optional<Polygon> p = random_quad(random, start, step);
   if (!p) return {};
   const double distance = random.log_uniform(range.distance_low, range.distance_high);
-  const Vec3 other = start + distance * direction(random);
+  const Vec3 other = start + distance * random_direction(random);
   std::optional<Polygon> q =
       random_quad(random, other, step * random.log_uniform(range.ratio_low, range.ratio_high));
   if (!q || !turn_to_face(&*p, &*q)) return {};
@@ -53,7 +46,7 @@ std::optional<QuadPair> draw_pair(Random& random, const QuadRange& range) {
 std::optional<Polygon> random_quad(Random& random, const Vec3& start, double step) {
   if (!in_unit_cube(start)) return {};
   // Two directions span the plane; their cross product is its normal, as random as they are.
-  const Vec3 u = direction(random), w = direction(random);
+  const Vec3 u = random_direction(random), w = random_direction(random);
   const Vec3 v = glm::normalize(w - glm::dot(w, u) * u);
   Polygon quad;
   quad.outer = {start};

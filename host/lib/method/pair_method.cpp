@@ -161,18 +161,26 @@ const std::map<std::string, Maker>& host_methods() {
 
 }  // namespace
 
+const std::vector<std::string>& pair_method_names() {
+  static const std::vector<std::string> names = {
+      "reference",           "closed-form", "lambert:N",    "gauss:N",      "contour:N",
+      "monte-carlo:SAMPLES", "kernel",      "moment",       "fixed-kernel", "fixed-moment",
+      "fixed-lambert:N",     "net[:NAME]",  "auto[:ERROR]", "hemicube:R",   "legacy:NAME"};
+  return names;
+}
+
+bool is_pair_method(const MethodSpec& spec) {
+  return host_methods().count(spec.name) || (is_engine_method(spec) && spec.name != "hybrid");
+}
+
 FreePairMethod pair_method(const MethodSpec& spec, const NetChoice& nets) {
   if (spec.name == "legacy") return legacy_pairs(nets.find_legacy(spec.argument));
   if (is_engine_method(spec) && spec.name != "hybrid") return in_engine(spec, nets);
   const auto maker = host_methods().find(spec.name);
-  if (maker == host_methods().end()) {
-    throw unknown_method(
-        spec,
-        {"reference", "closed-form", "lambert:N", "gauss:N", "contour:N", "monte-carlo:SAMPLES",
-         "kernel", "moment", "fixed-kernel", "fixed-moment", "fixed-lambert:N", "net[:NAME]",
-         "auto[:ERROR]", "hemicube:R", "legacy:NAME", "hybrid[:R] and rays:N (with --scene)"});
-  }
-  return maker->second(spec);
+  if (maker != host_methods().end()) return maker->second(spec);
+  std::vector<std::string> known = pair_method_names();
+  known.insert(known.end(), {"with --scene hybrid[:R]", "with --scene rays:N"});
+  throw unknown_method(spec, known);
 }
 
 }  // namespace host

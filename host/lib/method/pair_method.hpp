@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "form_factor/estimate.hpp"
 #include "geometry/polygon.hpp"
@@ -21,6 +22,10 @@ struct FreePairMethod {
   std::function<PairResult(const Polygon& p, const Polygon& q)> run;
   bool knows_error = false;  ///< fills estimate.relative_error
 };
+
+/// "lambert:N": what pair_method() takes, as it is typed.
+const std::vector<std::string>& pair_method_names();
+bool is_pair_method(const MethodSpec& spec);
 
 /// Throws Error for an unknown name (listing those known) or a value out of range. `nets` must
 /// outlive the result.

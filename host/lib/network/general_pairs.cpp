@@ -9,7 +9,7 @@
 #include "base/parallel.hpp"
 #include "form_factor/reference.hpp"
 #include "network/engine_pair.hpp"
-#include "network/random.hpp"
+#include "network/random_direction.hpp"
 #include "scene/fixed_scene.hpp"
 
 namespace host {
@@ -18,16 +18,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Vec3 direction(Random& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
 // Two unit vectors that make a right-handed frame with `normal`, turned freely about it.
 std::pair<Vec3, Vec3> frame(const Vec3& normal, Random& random) {
-  Vec3 other = direction(random);
-  while (std::fabs(glm::dot(other, normal)) > 0.99) other = direction(random);
+  Vec3 other = random_direction(random);
+  while (std::fabs(glm::dot(other, normal)) > 0.99) other = random_direction(random);
   const Vec3 u = glm::normalize(glm::cross(other, normal));
   return {u, glm::cross(normal, u)};
 }
@@ -56,7 +50,7 @@ PolygonPair free_pair(Random& random) {
   const auto point = [&] { return Vec3(random.uniform(), random.uniform(), random.uniform()); };
   const Vec3 a = point(), b = point();
   const Vec3 r = glm::normalize(b - a);
-  Vec3 m = direction(random), n = direction(random);
+  Vec3 m = random_direction(random), n = random_direction(random);
   if (glm::dot(m, r) < 0) m = -m;  // the centres face each other; corners may still be cut off
   if (glm::dot(n, r) > 0) n = -n;
   const double size = glm::distance(a, b) * random.log_uniform(0.05, 1.2);
@@ -135,7 +129,7 @@ PolygonPair room_pair(Random& random) {
 
 PolygonPair rotated_pair(Random& random) {
   const double w = aspect(random), h = 1 / w;
-  Vec3 n = direction(random);
+  Vec3 n = random_direction(random);
   const auto [u, v] = frame(n, random);
   const double size = random.log_uniform(0.3, 2), stretch = aspect(random);
   const Vec3 along = u * (size * stretch);

@@ -120,16 +120,11 @@ EngineRows SceneSolver::rows_of(const MethodSpec& spec, const NetChoice& nets) {
     return engine_rows(fixed_, spec, nets, options, threads_);
   }
   if (is_engine_method(spec)) return engine_rows(fixed_, spec, nets, options_, threads_);
-  const std::vector<std::string> known = {
-      "exact",        "table",           "net[:NAME]",  "auto[:ERROR]",
-      "hemicube:R",   "hybrid[:R]",      "legacy:NAME", "fixed-kernel",
-      "fixed-moment", "fixed-lambert:N", "reference",   "closed-form",
-      "lambert:N",    "gauss:N",         "contour:N",   "monte-carlo:SAMPLES",
-      "kernel",       "moment"};
-  if (std::none_of(known.begin(), known.end(), [&](const std::string& entry) {
-        return entry.substr(0, entry.find_first_of(":[")) == spec.name;
-      }))
+  if (!is_pair_method(spec)) {
+    std::vector<std::string> known = pair_method_names();
+    known.insert(known.end(), {"exact", "table", "hybrid[:R]"});
     throw unknown_method(spec, known);
+  }
   const FreePairMethod method = pair_method(spec, nets);
   const EmbreeVisibility visibility(scene_, rays_);
   Progress progress(spec.text(), scene_.patches.size() * scene_.patches.size() / 2, quiet_);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "accuracy/pair_families.hpp"
+#include "network/random_direction.hpp"
 
 namespace host {
 namespace {
@@ -22,16 +23,9 @@ PolygonPair mapped(PolygonPair pair, const Map& map) {
   return pair;
 }
 
-Vec3 direction(Random& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * kPi);
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
 PolygonPair placed(const PolygonPair& pair, Random& random) {
   if (random.below(4) == 0) return pair;
-  const Vec3 x = direction(random), y = glm::normalize(glm::cross(x, direction(random)));
-  const glm::dmat3 turn(x, y, glm::cross(x, y));
+  const glm::dmat3 turn = random_rotation(random);
   const Vec3 shift(random.uniform(), random.uniform(), random.uniform());
   return mapped(pair, [&](const Vec3& v) { return turn * v + shift; });
 }
@@ -152,7 +146,7 @@ PolygonPair of_scale(Random& random) {
 }
 
 PolygonPair far_away(Random& random) {
-  const Vec3 shift = random.log_uniform(10, 1e6) * direction(random);
+  const Vec3 shift = random.log_uniform(10, 1e6) * random_direction(random);
   return mapped(placed(any_plain(random), random), [&](const Vec3& x) { return x + shift; });
 }
 
