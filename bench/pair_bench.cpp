@@ -17,6 +17,7 @@
 #include "method/engine_source.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
+#include "urad/legacy.hpp"
 
 namespace {
 
@@ -93,6 +94,28 @@ class InEngine {
  private:
   urad::Kernel kernel_;
   const urad_net* net_;
+  urad_counters counters_{};
+};
+
+/// A network of the 1996 report, one pair by itself; the scene's box is its unit cube.
+class Legacy {
+ public:
+  explicit Legacy(const std::string& name) : net_(fixtures::nets().find_legacy(name)) {}
+
+  double operator()(const Pair& pair) {
+    const urad_scene& scene = pair.scene->pod();
+    const auto surface = urad::patch_at(scene, pair.j).surface - scene.surface;
+    memory_.resize(urad::legacy_bytes(net_.hidden) / sizeof(std::int32_t));
+    urad::LegacySource source{&scene, &net_, 0, 0xFFFF, &counters_, memory_.data()};
+    std::uint32_t f_uq32 = 0;
+    urad::legacy_fill(&source, pair.i, std::uint16_t(surface), pair.j, 1, &f_uq32);
+    return f_uq32 * 0x1p-32;
+  }
+  double macs() const { return net_.hidden * (URAD_LEGACY_INPUTS + 1); }
+
+ private:
+  const urad_legacy_net& net_;
+  std::vector<std::int32_t> memory_;
   urad_counters counters_{};
 };
 
@@ -220,6 +243,7 @@ const bool added = [] {
     } else {
       add_row(set, "hemicube:32", "", Hemicube<32>());
       add_row(set, "hemicube:64", "", Hemicube<64>());
+      add_row(set, "legacy:linear50", "", Legacy("linear50"));
     }
   }
   return true;

@@ -5,6 +5,7 @@
 #include "fixtures.hpp"
 #include "form_factor/lambert.hpp"
 #include "lanes/lane_rows.hpp"
+#include "method/engine_source.hpp"
 #include "scene/builtin.hpp"
 
 namespace {
@@ -69,22 +70,33 @@ void lambert(benchmark::State& state) {
 }
 BENCHMARK(lambert)->Name("rows/lambert:3, double, every pair")->Unit(benchmark::kMillisecond);
 
-/// The engine's rows, as a chip makes them.
-void engine(benchmark::State& state) {
-  Cube& c = cube();
+/// The engine's rows by one of its sources, as a chip makes them.
+void engine(benchmark::State& state, const urad_source& source) {
+  const Cube& c = cube();
   const urad_scene& scene = *c.pairs.scene;
   std::vector<std::uint32_t> f(c.n * c.n);
   for (auto _ : state)
     for (std::uint16_t i = 0; i < scene.patch_count; ++i)
       for (std::uint16_t s = 0; s < scene.surface_count; ++s) {
         const urad_surface& to = scene.surface[s];
-        if (urad::pair_fill(&c.pairs, i, s, to.first_patch, to.patch_count,
-                            &f[i * c.n + to.first_patch]) != URAD_OK)
+        if (source.fill(source.context, i, s, to.first_patch, to.patch_count,
+                        &f[i * c.n + to.first_patch]) != URAD_OK)
           state.SkipWithError("the engine refused");
       }
   report(state, unpacked(f));
 }
-BENCHMARK(engine)->Name("rows/net:cube7, engine, one by one")->Unit(benchmark::kMillisecond);
+
+void network(benchmark::State& state) { engine(state, {urad::pair_fill, &cube().pairs}); }
+BENCHMARK(network)->Name("rows/net:cube7, engine, one by one")->Unit(benchmark::kMillisecond);
+
+void report_network(benchmark::State& state) {
+  const host::EngineSource source(cube().solver.fixed(), host::parse_method("legacy:linear50"),
+                                  fixtures::nets(), {});
+  engine(state, source.source());
+}
+BENCHMARK(report_network)
+    ->Name("rows/legacy:linear50, engine, one by one")
+    ->Unit(benchmark::kMillisecond);
 
 /// The same integers in SIMD lanes.
 void lanes(benchmark::State& state, std::int64_t target) {

@@ -43,6 +43,7 @@ void run(const Options& options, const Common& common) {
   }
   if (options.quick || options.shipped_general) request.general_seeds.clear();
   request.shipped = shipped_net;
+  request.shipped_legacy = shipped_legacy_net;
   request.instructions = options.instructions;
   request.threads = common.threads;
   request.quiet = common.quiet;

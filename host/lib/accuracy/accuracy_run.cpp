@@ -87,7 +87,8 @@ void try_cornell(SceneSolver& cornell, const urad_net* general, AccuracyResults*
   results->cornell_general = light(general);
 }
 
-std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* own) {
+std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* own,
+                                       const LegacyLookup& legacy) {
   std::vector<TableMethod> methods;
   for (const char* text : {"reference", "closed-form", "kernel", "moment", "lambert:1", "lambert:2",
                            "lambert:3", "gauss:2", "gauss:4", "contour:2", "contour:4",
@@ -96,6 +97,7 @@ std::vector<TableMethod> table_methods(const urad_net* general, const urad_net* 
   methods.push_back({"auto", {"auto", ""}, {{}, general}});
   methods.push_back({"net, general", {"net", ""}, {{}, general}});
   methods.push_back({"net, of cube7", {"net", ""}, {{}, own}});
+  methods.push_back({"legacy:linear50", {"legacy", "linear50"}, {{}, nullptr, legacy}});
   return methods;
 }
 
@@ -189,8 +191,10 @@ AccuracyResults run_accuracy(const AccuracyRequest& request) {
   try_cornell(cornell, general, &results, &progress);
   progress.add();
 
-  measure_methods(request, dataset, cube_scene,
-                  table_methods(general, &results.cube7.front().net.quantised16.pod()), &results);
+  measure_methods(
+      request, dataset, cube_scene,
+      table_methods(general, &results.cube7.front().net.quantised16.pod(), request.shipped_legacy),
+      &results);
   try_kinds(request, general, cube7, &results);
   progress.add();
   return results;

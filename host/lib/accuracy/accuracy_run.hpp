@@ -25,6 +25,7 @@ struct AccuracyRequest {
       1000;  ///< free quads per decade, draws of each degenerate family; rooms five times that
   int scene_hidden = 4, general_hidden = 8;
   NetLookup shipped;
+  LegacyLookup shipped_legacy;
   std::string instructions;  ///< path of icount.json, or empty
   int threads = 0;
   bool quiet = false;
