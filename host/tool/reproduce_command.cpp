@@ -74,7 +74,10 @@ void run(const Options& options, const Common& common) {
         host::cube_experiment(request, options.what == "figure4.3" ? 50 : 0);
     if (asked("table4.1")) show(host::reproduce_cube(request, cube));
     if (asked("figure4.3")) show(host::reproduce_figure(request, cube));
-    if (asked("section2.9")) show(host::reproduce_operations(request, cube));
+    if (asked("section2.9")) {
+      show(host::reproduce_operations(request, cube));
+      show(host::reproduce_training(request, cube));
+    }
   }
   if (asked("experiments")) {
     const host::ExperimentRequest experiments{request, {shipped_net, nullptr, shipped_legacy_net}};

@@ -42,21 +42,6 @@ Eigen::MatrixXd factors_of(const Scene& scene, int threads, Run&& run) {
   return f;
 }
 
-/// What the analytic library was asked for (Figure 4.1): pairs whose faces see each other.
-std::vector<LegacySample> samples_of(const CubeExperiment& cube, LegacyScaling scaling) {
-  std::vector<LegacySample> samples;
-  const auto& patches = cube.scene.patches;
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    for (std::size_t j = 0; j < patches.size(); ++j) {
-      if (!see_each_other(cube.scene, i, j)) continue;
-      samples.push_back(
-          {legacy_input(patches[i].polygon, patches[j].polygon),
-           float(legacy_scaled(scaling, cube.exact(Eigen::Index(i), Eigen::Index(j))))});
-    }
-  }
-  return samples;
-}
-
 /// Of a net's integers, over all 86,436 pairs.
 LegacyErrors measured(const CubeExperiment& cube, const LegacyFixed& net) {
   const Eigen::MatrixXd f =
@@ -76,13 +61,28 @@ LegacyErrors measured(const CubeExperiment& cube, const LegacyFixed& net) {
 
 }  // namespace
 
+std::vector<LegacySample> legacy_samples(const CubeExperiment& cube, LegacyScaling scaling) {
+  std::vector<LegacySample> samples;
+  const auto& patches = cube.scene.patches;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (std::size_t j = 0; j < patches.size(); ++j) {
+      if (!see_each_other(cube.scene, i, j)) continue;
+      samples.push_back(
+          {legacy_input(patches[i].polygon, patches[j].polygon),
+           float(legacy_scaled(scaling, cube.exact(Eigen::Index(i), Eigen::Index(j))))});
+    }
+  }
+  return samples;
+}
+
 CubeExperiment cube_experiment(const ReproduceRequest& request, int hidden) {
   CubeExperiment cube;
   cube.scene = load_scene("cube7");
   cube.scene.camera = from_inside();
   cube.exact = exact_form_factors(cube.scene, request.threads, 1);
-  const LegacySplit linear = legacy_split(samples_of(cube, LegacyScaling::linear), request.seed),
-                    log = legacy_split(samples_of(cube, LegacyScaling::log), request.seed);
+  const LegacySplit linear =
+                        legacy_split(legacy_samples(cube, LegacyScaling::linear), request.seed),
+                    log = legacy_split(legacy_samples(cube, LegacyScaling::log), request.seed);
   std::vector<LegacyJob> jobs;
   const auto add = [&](LegacyScaling scaling, int units) {
     if (hidden > 0 && (units != hidden || scaling != LegacyScaling::linear)) return;

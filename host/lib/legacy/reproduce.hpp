@@ -35,6 +35,10 @@ struct CubeExperiment {
 /// hidden: only networks of this size and linear scaling; 0: all seven.
 CubeExperiment cube_experiment(const ReproduceRequest& request, int hidden = 0);
 
+/// What the analytic library was asked for (Figure 4.1): the ordered pairs whose faces see each
+/// other.
+std::vector<LegacySample> legacy_samples(const CubeExperiment& cube, LegacyScaling scaling);
+
 /// F(i, j) of a network, 0 where the patches' faces do not see each other (Figure 4.1).
 Eigen::MatrixXd legacy_factors(const Scene& scene, const LegacyNet& net, int threads);
 
@@ -52,5 +56,9 @@ std::vector<ResultTable> reproduce_figure(const ReproduceRequest& request,
 /// Section 2.9: operations counted beside its formulas, and time.
 std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
                                               const CubeExperiment& cube);
+
+/// Section 4.2.3: how long the cube's networks train, on one core.
+std::vector<ResultTable> reproduce_training(const ReproduceRequest& request,
+                                            const CubeExperiment& cube);
 
 }  // namespace host
