@@ -57,7 +57,7 @@ TEST_CASE("C99 and C++17 compilers take the header without a word") {
     const std::string options = " -Wall -Wextra -Wpedantic -Wconversion -Werror -I" URAD_SOURCE_DIR
                                 "/firmware_style/include -c " +
                                 folder + "/toy_net.c -o " + folder + "/toy_net.o";
-    CHECK(std::system(("cc -std=c99" + options).c_str()) == 0);
-    CHECK(std::system(("c++ -x c++ -std=c++17" + options).c_str()) == 0);
+    CHECK(std::system((URAD_CC " -std=c99" + options).c_str()) == 0);
+    CHECK(std::system((URAD_CXX " -x c++ -std=c++17" + options).c_str()) == 0);
   }
 }

@@ -251,7 +251,7 @@ TEST_CASE("exported tables compile as C99 and C++17 and hold the same integers")
       << sum << "u || urad_pose_table_check(&urad_cube7_poses, &urad_cube7_scene) != URAD_OK;\n}\n";
   std::filesystem::copy_file(folder / "main.c", folder / "main.cpp",
                              std::filesystem::copy_options::overwrite_existing);
-#ifdef __SANITIZE_ADDRESS__
+#ifdef URAD_SANITIZED
   const std::string as_the_archive = " -fsanitize=address,undefined";
 #else
   const std::string as_the_archive;
@@ -262,8 +262,8 @@ TEST_CASE("exported tables compile as C99 and C++17 and hold the same integers")
       "/firmware_style/include -o " +
       (folder / "main").string() + " " + folder.string();
   const auto run = [](const std::string& command) { return std::system(command.c_str()) == 0; };
-  CHECK(run("cc -std=c99 -c" + flags + "/main.c"));
-  CHECK(run("c++ -std=c++17 " + flags + "/main.cpp " URAD_ENGINE_ARCHIVE));
+  CHECK(run(URAD_CC " -std=c99 -c" + flags + "/main.c"));
+  CHECK(run(URAD_CXX " -std=c++17 " + flags + "/main.cpp " URAD_ENGINE_ARCHIVE));
   CHECK(run((folder / "main").string()));
   std::filesystem::remove_all(folder);
 }

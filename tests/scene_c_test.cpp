@@ -125,9 +125,9 @@ TEST_CASE(
       " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I" URAD_SOURCE_DIR
       "/firmware_style/include -o " +
       (folder / "main").string() + " " + folder.string();
-  CHECK(runs("cc -std=c99" + flags + "/main.c"));
+  CHECK(runs(URAD_CC " -std=c99" + flags + "/main.c"));
   CHECK(runs((folder / "main").string()));
-  CHECK(runs("c++ -std=c++17" + flags + "/main.cpp"));
+  CHECK(runs(URAD_CXX " -std=c++17" + flags + "/main.cpp"));
   CHECK(runs((folder / "main").string()));
   std::filesystem::remove_all(folder);
 }

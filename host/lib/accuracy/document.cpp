@@ -193,7 +193,8 @@ std::string accuracy_document(const AccuracyResults& results) {
       "for one F on one core, in this run, of the fastest pass; compare rows, not machines. "
       "Methods in double start from the "
       "vertices; those of the engine (hemicube, fixed-, net, legacy) from a scene as it stands in "
-      "flash. legacy is the 1996 report's network: it reads the box of the scene, here of the pair, "
+      "flash. legacy is the 1996 report's network: it reads the box of the scene, here of the "
+      "pair, "
       "as its unit cube.\n\n### cube7, all off-wall "
       "pairs\n\nThe hemicube serves 245 receivers with one pass.\n\n" +
       cube_methods(results) + "\n" + concentration(results);

@@ -43,7 +43,7 @@ double seconds_of(clockid_t clock) {
 }
 
 // Sanitizers have handlers that say more.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef URAD_SANITIZED
 constexpr bool kOwnHandlers = false;
 #else
 constexpr bool kOwnHandlers = true;
