@@ -96,3 +96,21 @@ TEST_CASE("a grid made on the chip passes the scene check and enumerates its pat
   CHECK(urad::patch_vertex(scene, patch, 2).x == -100);
   CHECK(urad::patch_vertex(scene, patch, 2).y == 100);
 }
+
+TEST_CASE("squares turned in their plane have unit normals that the scene check takes") {
+  urad_material material{};
+  urad_scene scene{};
+  scene.abi = URAD_SCENE_ABI;
+  scene.patch_count = scene.surface_count = scene.material_count = 1;
+  scene.material = &material;
+  for (int k = 0; k < 500; ++k) {
+    const auto a = std::int32_t(0x1p26 * std::cos(0.01 * k)),
+               b = std::int32_t(0x1p26 * std::sin(0.01 * k));
+    urad_grid grid;
+    REQUIRE(urad::grid_make({0, 0, 0}, {a, 0, b}, {-b, 0, a}, 1, 1, &grid) == urad::Status::ok);
+    const urad_surface surface{0, 1, 0, URAD_SURFACE_PLANAR, &grid, nullptr};
+    scene.surface = &surface;
+    CAPTURE(k);
+    CHECK(urad::scene_check(&scene) == urad::Status::ok);
+  }
+}

@@ -33,7 +33,11 @@ urad_point unit_q30(const urad_point& x) noexcept {
   const int64_t y_q28 = rsqrt_uq(uint64_t(length2_uq28), 42);  // 2^28 / sqrt(|x|^2 / 2^58 )
   const int64_t half_q28 = round_shift(round_shift(y_q28 * y_q28, 28) * length2_uq28, 28);
   const int64_t better_q28 = round_shift(y_q28 * ((int64_t{3} << 28) - half_q28), 29);
-  const auto scaled = [=](int32_t c) { return int32_t(round_shift(c * better_q28, 27)); };
+  const auto scaled = [=](int32_t c) {
+    constexpr int32_t one = int32_t{1} << 30;  // rounding may pass it
+    const int64_t along = round_shift(c * better_q28, 27);
+    return along > one ? one : along < -one ? -one : int32_t(along);
+  };
   return {scaled(x.x), scaled(x.y), scaled(x.z)};
 }
 
