@@ -215,6 +215,7 @@ void guard(Radiosity* s) noexcept {
 
 Status radiosity_step(Radiosity* s) noexcept {
   if (s->status != URAD_OK) return Status(s->status);
+  if (s->flags & kMoving) return Status::bad_argument;
   if (s->flags & kStale) {
     s->flags = uint8_t(s->flags & ~kStale);
     survey(s);

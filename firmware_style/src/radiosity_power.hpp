@@ -30,6 +30,8 @@ void measure_scene(urad_radiosity* state) noexcept;
 
 /// In urad_radiosity.flags: `shooter` is out of date.
 inline constexpr uint8_t kStale = 128;
+/// The same: light between touched patches is taken away, radiosity_move_end() is to follow.
+inline constexpr uint8_t kMoving = 64;
 
 /// Power of an exitance on a patch.
 inline int64_t power_of(const urad_scene& scene, int32_t exitance, int32_t log2_area_q24) noexcept {

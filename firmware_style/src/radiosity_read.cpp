@@ -69,7 +69,7 @@ uint32_t radiosity_error_uq32(const Radiosity& s) noexcept {
 }
 
 bool radiosity_done(const Radiosity& s, uint32_t error_uq32) noexcept {
-  return s.status != URAD_OK || radiosity_error_uq32(s) <= error_uq32;
+  return s.status != URAD_OK || (s.flags & kMoving) || radiosity_error_uq32(s) <= error_uq32;
 }
 
 int32_t radiosity_get(const Radiosity& s, uint16_t patch, int channel) noexcept {

@@ -1,5 +1,5 @@
 // Light that changes: signed differences become unshot power [Chen 1990], or lights are mixed.
-#include "radiosity_power.hpp"
+#include "radiosity_change.hpp"
 #include "urad/patch.hpp"
 #include "urad/radiosity.hpp"
 #include "urad/ratio.hpp"
@@ -7,45 +7,6 @@
 namespace urad {
 
 namespace {
-
-uint64_t key_of(const int32_t* unshot) noexcept {
-  return uint64_t{magnitude(unshot[0])} + magnitude(unshot[1]) + magnitude(unshot[2]);
-}
-
-/// Unshot power of a patch with `delta` more of it.
-struct Changed {
-  int64_t unshot[3];
-  bool fits;
-};
-
-Changed changed(const Radiosity& s, uint32_t patch, const int64_t* delta) noexcept {
-  Changed result{{0, 0, 0}, true};
-  uint64_t key = 0;
-  for (uint32_t c = 0; c < 3; ++c) {
-    result.unshot[c] = s.unshot[3 * patch + c] + delta[c];
-    key += magnitude(result.unshot[c]);
-  }
-  result.fits = key < URAD_POWER_LIMIT;
-  return result;
-}
-
-void write(Radiosity* s, uint32_t patch, const Changed& to) noexcept {
-  int32_t* const unshot = s->unshot + 3 * patch;
-  s->remaining -= key_of(unshot);
-  for (uint32_t c = 0; c < 3; ++c) {
-    s->ledger.unshot[c] += to.unshot[c] - unshot[c];
-    unshot[c] = int32_t(to.unshot[c]);
-  }
-  s->remaining += key_of(unshot);
-}
-
-/// The guard looks at the new light from its start.
-void begin_again(Radiosity* s) noexcept {
-  s->flags |= kStale;
-  s->window_shots = 0;
-  s->window_strikes = 0;
-  s->window_remaining = s->remaining;
-}
 
 /// Power that has met a patch so far, gathered over what all others have shot: a patch that reflects
 /// nothing has kept no other trace of it. A_k F_kj = A_j F_jk, so that one row of factors will do.
@@ -176,6 +137,7 @@ Status radiosity_set_emission(Radiosity* s, uint16_t patch, const int32_t* exita
 Status radiosity_set_reflectance(Radiosity* s, urad_material* material,
                                  const uint16_t* reflectance_uq15) noexcept {
   if (!s || !s->emitted || !material || !reflectance_uq15) return Status::bad_argument;
+  if (s->flags & kMoving) return Status::bad_argument;
   const urad_scene& scene = *s->scene;
   uint32_t number = 0;
   while (number < scene.material_count && scene.material + number != material) ++number;
