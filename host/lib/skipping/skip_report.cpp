@@ -9,6 +9,7 @@
 #include "scene/builtin.hpp"
 #include "solve/exact.hpp"
 #include "solve/fixed_solve.hpp"
+#include "solve/moving.hpp"
 #include "solve/relight.hpp"
 #include "solve/repair.hpp"
 #include "solve/scene_solver.hpp"
@@ -18,6 +19,7 @@ namespace host {
 namespace {
 
 constexpr const char* kBoard = "microbit";
+constexpr int kSettled = 6;  // shots a patch until nothing changes that a table shows
 
 std::map<std::string, double> read_counts(const std::string& path) {
   const auto json = nlohmann::json::parse(read_file(path), nullptr, false);
@@ -59,6 +61,40 @@ EarlyAnswer early_answer(const Scene& scene, const EngineRows& rows, bool oversh
     for (; next < 4 && error <= kEarlyErrors[next]; ++next) answer.shots[next] = shots;
     if (light.step(1) == 0) break;
   }
+  return answer;
+}
+
+/// Shots until `light` is within each of kEarlyErrors of `truth`.
+void count_shots(Moving* light, const std::vector<Vec3>& truth, int* shots_to) {
+  const int most = 8 * int(truth.size());
+  int next = 0;
+  for (int shots = 0; shots < most && next < 4; ++shots) {
+    const double error = relative_rms(light->scene(), light->radiosity(), truth);
+    for (; next < 4 && error <= kEarlyErrors[next]; ++next) shots_to[next] = shots;
+    if (light->step(1) == 0) break;
+  }
+}
+
+std::optional<MovedAnswer> moved_answer(const Scene& scene, const NetChoice& nets) {
+  const std::vector<int> object = smallest_object(scene);
+  const Motion motion{glm::dmat3(1), free_way(scene, object, scene.camera.up)};
+  if (object.empty() || motion.by == Vec3(0)) return std::nullopt;
+  const MethodSpec net = parse_method("net");
+  const EngineOptions options{.rays = kSkipRays};
+  const Scene there = moved_scene(scene, object, motion);
+  Moving light(scene, net, nets, options, true), from_start(there, net, nets, options, true);
+  MovedAnswer answer;
+  light.step(kSettled * int(scene.patches.size()));
+  light.move(object, motion);
+  const urad_move& last = light.last();
+  answer.patches = last.patch_count;
+  answer.made = last.made;
+  answer.pairs = std::size_t{last.made} + last.kept;
+  Moving truth(there, net, nets, options, true);
+  truth.step(kSettled * int(scene.patches.size()));
+  answer.before = relative_rms(there, light.radiosity(), truth.radiosity());
+  count_shots(&light, truth.radiosity(), answer.shots);
+  count_shots(&from_start, truth.radiosity(), answer.from_start);
   return answer;
 }
 
@@ -122,6 +158,7 @@ SkipReport skip_report(const std::string& name, const NetChoice& nets, const std
     report.bytes_fractions = solver.use_visibility(VisibilityCode::fractions).bytes();
     report.error_fractions = error({});
   }
+  report.moved = moved_answer(scene, nets);
   const EngineRows rows = repaired_rows(scene, nets, threads);
   report.by_number = errors_by_number(scene, rows);
   for (const bool overshoot : {false, true}) {

@@ -2,6 +2,7 @@
 // be shown.
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct EarlyAnswer {
 };
 inline constexpr double kEarlyErrors[4] = {0.1, 0.05, 0.02, 0.01};
 
+/// The smallest object of a scene moves half the way that it has free: shots until the light is within
+/// kEarlyErrors of that of a solve from the start, and what such a solve takes.
+struct MovedAnswer {
+  std::size_t patches = 0;  ///< of the object
+  std::uint32_t made = 0;   ///< pairs asked for again, both looks
+  std::size_t pairs = 0;    ///< in two looks at all
+  double before = 0;        ///< error of the light as it was
+  int shots[4] = {0, 0, 0, 0}, from_start[4] = {0, 0, 0, 0};
+};
+
 struct SkipReport {
   std::string scene;
   std::size_t patches = 0, blockers = 0;
@@ -32,6 +43,7 @@ struct SkipReport {
   double error_fixed = 0, error_worth = 0;     ///< rms of B, 64 rays a pair and 64 by worth
   double error_bits = 0, error_fractions = 0;  ///< rms of B by exported visibility
   std::size_t bytes_bits = 0, bytes_fractions = 0;
+  std::optional<MovedAnswer> moved;  ///< of scenes with something that can stand between patches
   /// Mean instructions of a row by "on", "same", ..., "all", "bounded", "all_64", "worth_64", and of a shot's solver by
   /// "solver_on", "solver_all"; of a row with exported fractions "sight"; of light_mix() with one light
   /// and with two "light_1", "light_2"; empty: not counted.
