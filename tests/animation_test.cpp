@@ -88,6 +88,25 @@ TEST_CASE("a painted wall settles frame by frame; a grey room has none to paint"
   CHECK_THROWS_AS(host::animate_wall(none, rows, options), host::Error);
 }
 
+TEST_CASE("an object goes its way step by step, and the light follows; walls alone stay") {
+  host::AnimationOptions options;
+  options.steps = 2, options.frames = 3;
+  options.picture.width = options.picture.height = 16;
+  const host::Scene scene = host::load_scene("louvre", {3, 0});
+  const host::Animation moved = host::animate_object(scene, kNets, options);
+  const host::CsvTable table = host::parse_csv(moved.table, "object");
+  REQUIRE(table.rows.size() == 7);
+  CHECK(moved.frames.size() == 7);
+  const auto cell = [&](std::size_t frame, const char* column) {
+    return std::stod(table.rows[frame].cells[table.column(column)]);
+  };
+  CHECK(cell(3, "error") < 0.01);
+  CHECK(cell(6, "error") < 0.01);
+  CHECK(cell(6, "shots") == 120);
+  CHECK(cell(6, "pairs") > cell(3, "pairs"));
+  CHECK(host::animate_object(host::load_scene("gallery", {2, 0}), kNets, options).frames.empty());
+}
+
 TEST_CASE("the document of skips: a column a scene, early answers within a third of the work") {
   const host::SkipReport report = host::skip_report("gallery", kNets, "", 0);
   CHECK(report.by_pairs.rays == 0);

@@ -127,10 +127,11 @@ void add_method(const fs::path& folder, const host::Scene& scene, const host::Me
   files->push_back({stem + ".ply", host::ply(scene, mesh, method.B, white)});
 }
 
-/// A strip of light that moves and a wall that is painted, each as animated PNG and table.
+/// A strip of light that moves, a wall that is painted and an object that moves, each as animated PNG
+/// and table.
 void write_animations(const fs::path& folder, const host::Scene& scene,
-                      const host::EngineRows& rows, const host::PictureOptions& pictures,
-                      host::BakeReport* report) {
+                      const host::EngineRows& rows, const host::NetChoice& nets,
+                      const host::PictureOptions& pictures, host::BakeReport* report) {
   host::AnimationOptions options;
   options.picture = pictures;
   const auto write = [&](const std::string& name, const host::Animation& animation,
@@ -144,6 +145,11 @@ void write_animations(const fs::path& folder, const host::Scene& scene,
         "a strip of light that moves over the lamp, 20 shots a frame, and the error of each frame");
   write("painted_wall", host::animate_wall(scene, rows, options),
         "a wall that is painted, 20 shots a frame, and the error of each frame");
+  const host::Animation object = host::animate_object(scene, nets, options);
+  if (!object.frames.empty())
+    write(
+        "moved_object", object,
+        "an object that moves, 20 shots a frame, and the pairs made again and the error by frame");
 }
 
 void run(const Options& options, const Common& common) {
@@ -223,7 +229,7 @@ void run(const Options& options, const Common& common) {
   if (options.animate) {
     if (rows.patches == 0)
       throw host::UsageError("--animate needs a method of the engine beside exact, such as net");
-    write_animations(folder, scene, rows, pictures, &report);
+    write_animations(folder, scene, rows, nets.choice(), pictures, &report);
   }
   const host::CornerMesh mesh = host::merge_corners(scene);
   const double white = host::white_level(scene, solver.exact().radiosity);
@@ -262,9 +268,10 @@ void add_bake(CLI::App& app, const Common& common) {
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height of the pictures")
       ->check(CLI::Range(16, 4096));
-  command->add_flag("--animate", options->animate,
-                    "Also animated PNGs of light that changes: a strip of the lamp that moves, a "
-                    "wall that is painted; by the first method's factors");
+  command->add_flag(
+      "--animate", options->animate,
+      "Also animated PNGs of light that changes: a strip of the lamp that moves, a "
+      "wall that is painted; by the first method's factors; and an object that moves");
   command->add_option("--visibility", options->visibility,
                       "Export what every pair sees, so that the chip makes no rays: bits or "
                       "fractions (4 bits); net and other pair methods then solve with it");

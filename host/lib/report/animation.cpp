@@ -2,6 +2,8 @@
 
 #include "base/csv.hpp"
 #include "base/error.hpp"
+#include "solve/fixed_solve.hpp"
+#include "solve/moving.hpp"
 #include "solve/relight.hpp"
 
 namespace host {
@@ -100,6 +102,43 @@ Animation animate_wall(const Scene& scene, const EngineRows& rows,
   recorder.light.paint(vivid, {r.z, r.x, r.y});
   recorder.shoot(material.name + " painted", options.paint_frames);
   return std::move(recorder.animation);
+}
+
+Animation animate_object(const Scene& scene, const NetChoice& nets,
+                         const AnimationOptions& options) {
+  Animation animation;
+  animation.table = csv_line({"frame", "change", "shots", "pairs", "error"});
+  const std::vector<int> object = smallest_object(scene);
+  const Vec3 way = free_way(scene, object, scene.camera.up);
+  if (object.empty() || way == Vec3(0)) return animation;
+  const MethodSpec net = parse_method("net");
+  const EngineOptions engine{.rays = 16};
+  const int settled = 6 * int(scene.patches.size());
+  Moving light(scene, net, nets, engine, true);
+  light.step(settled);
+  const double white = white_level(scene, light.radiosity());
+  int shots = 0;
+  std::uint32_t pairs = 0;
+  for (int step = 0; step <= options.steps; ++step) {
+    if (step > 0) {
+      light.move(object, {glm::dmat3(1), way / double(options.steps)});
+      pairs += light.last().made;
+    }
+    Moving start(light.scene(), net, nets, engine, true);
+    start.step(settled);
+    const std::vector<Vec3> truth = start.radiosity();
+    const View view(light.scene(), options.picture);
+    for (int frame = 0; frame < (step > 0 ? options.frames : 1); ++frame) {
+      if (step > 0) shots += light.step(options.shots);
+      animation.table +=
+          csv_line({std::to_string(animation.frames.size()),
+                    step > 0 ? fmt::format("step {}", step) : "settled", std::to_string(shots),
+                    std::to_string(pairs),
+                    fmt::format("{:.6f}", relative_rms(light.scene(), light.radiosity(), truth))});
+      animation.frames.push_back(view.picture(light.radiosity(), Shading::kSmooth, white));
+    }
+  }
+  return animation;
 }
 
 }  // namespace host
