@@ -194,6 +194,24 @@ TEST_CASE("solve writes the solution, the rows and the report of the cube") {
   CHECK(host::read_file(path("report.json")).find("\"exact\": true") != std::string::npos);
 }
 
+TEST_CASE(
+    "solve without the exact solution gives the same light, and says that nothing was compared") {
+  const fs::path folder = scratch("no_exact");
+  const auto solve = [&](const std::string& name, const std::string& options) {
+    const std::string path = (folder / name).string();
+    const Outcome outcome = urad("solve cube7 --method fixed-moment --out " + path +
+                                 ".csv --report " + path + ".json " + options);
+    CAPTURE(outcome.text);
+    REQUIRE(outcome.status == 0);
+    return path;
+  };
+  const std::string with = solve("with", ""), without = solve("without", "--no-exact");
+  CHECK(host::read_file(with + ".csv") == host::read_file(without + ".csv"));
+  CHECK(host::read_file(with + ".json").find("\"exact_rms\": null") == std::string::npos);
+  CHECK(host::read_file(without + ".json").find("\"exact_rms\": null") != std::string::npos);
+  CHECK(host::read_file(without + ".json").find("\"converged_rms\": null") == std::string::npos);
+}
+
 TEST_CASE("outputs of one name are refused; when one cannot be written, none is") {
   const fs::path folder = scratch("outputs");
   const auto path = [&](const char* name) { return (folder / name).string(); };

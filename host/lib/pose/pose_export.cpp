@@ -51,8 +51,8 @@ std::string poses_to_c(const PoseTable& table, const std::string& name,
       " *   size      {} bytes of flash (pointers of 4 bytes)\n"
       " */\n"
       "#ifndef {}\n#define {}\n#include \"urad/pose_table.h\"\n"
-      "#if URAD_POSE_TABLE_ABI != {}\n#error \"{}: exported for pose table ABI {}: export it "
-      "again\"\n#endif\n\n",
+      "#if URAD_POSE_TABLE_ABI != {}\n#error \"{} was exported for pose table ABI {}: export "
+      "it again\"\n#endif\n\n",
       c_comment(command), name, t.value_count, layout.factor.size(), layout.classes,
       layout.difference, layout.bytes(), guard, guard, URAD_POSE_TABLE_ABI, name,
       URAD_POSE_TABLE_ABI);

@@ -84,7 +84,7 @@ std::string open_header(const Banner& banner) {
       "#define {}\n"
       "#include \"urad/scene.h\"\n"
       "#if !defined URAD_SCENE_ABI_SIGHT || URAD_SCENE_ABI_SIGHT != {}\n"
-      "#error \"{}.h was exported for scene ABI {}: export it again\"\n"
+      "#error \"{} was exported for scene ABI {}: export it again\"\n"
       "#endif\n\n",
       c_comment(banner.command), banner.what, banner.units, banner.bytes, guard, guard,
       URAD_SCENE_ABI_SIGHT, banner.name, URAD_SCENE_ABI_SIGHT);

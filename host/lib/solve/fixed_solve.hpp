@@ -15,6 +15,7 @@ struct SolveGoal {
   std::optional<int> shots;
   double error = 0.01;
   bool overshoot = true;
+  bool against_exact = true;  ///< compare with the exact solution: the dearest part of large scenes
 };
 
 struct FixedSolution {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
@@ -154,7 +155,6 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   fixed_.set_scale({});
   run.rows = rows_of(spec, nets);
   const Eigen::MatrixXd f = matrix(run.rows);
-  run.factors = factor_errors(scene_, f, exact().form_factors);
   EngineRows repaired_rows = run.rows;
   // A hemicube's rows sum to 1 by themselves, and so do those of exact factors; the report's networks
   // are shown as they are.
@@ -167,6 +167,13 @@ MethodRun SceneSolver::run(const MethodSpec& spec, const NetChoice& nets, const 
   const std::vector<Vec3> converged = exact_radiosity(scene_, gathered(scene_, repaired_rows));
   run.repaired = repaired_rows;
   run.solution = fixed_solve(scene_, fixed_, repaired_rows, converged, goal);
+  if (!goal.against_exact) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    run.factors = {none, none, none, none, none, 0};
+    run.rms = run.max = none;
+    return run;
+  }
+  run.factors = factor_errors(scene_, f, exact().form_factors);
   run.rms = relative_rms(scene_, run.solution.radiosity, exact().radiosity);
   run.max = relative_max(scene_, run.solution.radiosity, exact().radiosity);
   return run;

@@ -28,8 +28,9 @@ struct MethodRun {
   EngineRows rows;            ///< before repair
   EngineRows repaired;        ///< what the engine solved with
   std::vector<double> scale;  ///< repair; empty when the scene is open
-  FactorErrors factors;
   FixedSolution solution;
+  // Not numbers where SolveGoal::against_exact is false.
+  FactorErrors factors;
   double rms = 0, max = 0;  ///< of B against the exact solution
 };
 
