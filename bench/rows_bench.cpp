@@ -89,14 +89,11 @@ void engine(benchmark::State& state, const urad_source& source) {
 void network(benchmark::State& state) { engine(state, {urad::pair_fill, &cube().pairs}); }
 BENCHMARK(network)->Name("rows/net:cube7, engine, one by one")->Unit(benchmark::kMillisecond);
 
-void report_network(benchmark::State& state) {
-  const host::EngineSource source(cube().solver.fixed(), host::parse_method("legacy:linear50"),
+void by_method(benchmark::State& state, const char* method) {
+  const host::EngineSource source(cube().solver.fixed(), host::parse_method(method),
                                   fixtures::nets(), {});
   engine(state, source.source());
 }
-BENCHMARK(report_network)
-    ->Name("rows/legacy:linear50, engine, one by one")
-    ->Unit(benchmark::kMillisecond);
 
 /// The same integers in SIMD lanes.
 void lanes(benchmark::State& state, std::int64_t target) {
@@ -109,6 +106,13 @@ void lanes(benchmark::State& state, std::int64_t target) {
 }
 
 const bool kRegistered = [] {
+  for (const char* method : {"fixed-moment", "auto:0.1", "auto:0.03", "auto", "auto:0.003",
+                             "fixed-lambert:3", "legacy:linear50"}) {
+    const std::string name = std::string("rows/") + method + ", engine, one by one";
+    benchmark::RegisterBenchmark(name.c_str(), [method](benchmark::State& state) {
+      by_method(state, method);
+    })->Unit(benchmark::kMillisecond);
+  }
   for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets;
        targets &= targets - 1) {
     const std::int64_t one = targets & -targets;
