@@ -112,6 +112,10 @@ TEST_CASE("null arguments of sources, and memory that is too small or misaligned
   CHECK(pairs(memory, urad_pair_source_bytes() - 1) == URAD_OUT_OF_MEMORY);
   CHECK(pairs(static_cast<char*>(memory) + 1, room.bytes - 8) == URAD_OUT_OF_MEMORY);
   CHECK(pairs(memory, urad_pair_source_bytes()) == URAD_OK);
+  NULL_IN_TURN(urad_pair_source_worth, URAD_BAD_ARGUMENT, Optional{}, &room.source, 1u << 26, 2);
+  CHECK(urad_pair_source_worth(&room.source, 1u << 26, 7) == URAD_BAD_ARGUMENT);
+  const urad_source stranger{urad_fill{}, memory};
+  CHECK(urad_pair_source_worth(&stranger, 1u << 26, 2) == URAD_BAD_ARGUMENT);
   const std::size_t hemicube = urad_hemicube_source_bytes(room.scene, 16, 4, 0);
   const auto cubes = [&](void* at, std::size_t bytes) {
     return urad_hemicube_source_init(&room.source, room.scene, &room.table, 4, 0, &room.counters,

@@ -9,10 +9,12 @@
 #include "form_factor/reference.hpp"
 #include "method/engine_source.hpp"
 #include "network/general_pairs.hpp"
+#include "scene/builtin.hpp"
 #include "scene/obj.hpp"
 #include "solve/embree_visibility.hpp"
 #include "solve/fixed_solve.hpp"
 #include "urad/form_factor.hpp"
+#include "urad/urad.h"
 #include "weights/general.h"
 
 namespace {
@@ -185,4 +187,38 @@ TEST_CASE("a sealed box in a lit room stays dark inside, by rays and by hybrid")
       }
     }
   }
+}
+
+TEST_CASE(
+    "C: rays by the worth of a pair are those of the engine's own source, fewer and as right") {
+  const host::Scene scene = host::load_scene("cornell", {.subdivide = 2});
+  const host::FixedScene fixed(scene);
+  const urad_scene& pod = fixed.pod();
+  std::vector<std::uint64_t> memory(urad_pair_source_bytes() / 8 + 1);
+  urad_counters counters{};
+  urad_source source;
+  REQUIRE(urad_pair_source_init(&source, &pod, URAD_KERNEL_MOMENT, &urad_general, 64, &counters,
+                                memory.data(), memory.size() * 8) == URAD_OK);
+  const auto rows = [&] {
+    std::vector<std::uint32_t> all;
+    for (std::uint16_t i = 0; i < pod.patch_count; ++i) {
+      for (std::uint16_t s = 0; s < pod.surface_count; ++s) {
+        const urad_surface& to = pod.surface[s];
+        std::vector<std::uint32_t> run(to.patch_count);
+        REQUIRE(source.fill(source.context, i, s, to.first_patch, to.patch_count, run.data()) ==
+                URAD_OK);
+        all.insert(all.end(), run.begin(), run.end());
+      }
+    }
+    return all;
+  };
+  const std::vector<std::uint32_t> every = rows();
+  const std::uint32_t rays = counters.rays;
+  counters = {};
+  REQUIRE(urad_pair_source_worth(&source, 1u << 26, 0) == URAD_OK);
+  const host::EngineOptions options{.rays = 64, .ray_error = 1.0 / 64};
+  CHECK(rows() == host::engine_rows(fixed, host::parse_method("net"), kNets, options, 1).f_uq32);
+  CHECK(counters.rays < rays);
+  REQUIRE(urad_pair_source_worth(&source, 0, 0) == URAD_OK);
+  CHECK(rows() == every);
 }

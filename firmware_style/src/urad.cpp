@@ -107,6 +107,16 @@ urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, 
   return URAD_OK;
 }
 
+urad_status urad_pair_source_worth(const urad_source* source, uint32_t f_uq32, unsigned cuts) {
+  if (!source || source->fill != urad::pair_fill || !source->context || cuts > urad::kMaxDepth) {
+    return URAD_BAD_ARGUMENT;
+  }
+  auto* const pairs = static_cast<urad::PairSource*>(source->context);
+  pairs->error_uq32 = f_uq32;
+  pairs->depth = uint8_t(cuts);
+  return URAD_OK;
+}
+
 size_t urad_pose_source_bytes(void) { return sizeof(urad::PoseSource); }
 
 urad_status urad_pose_source_init(urad_source* source, const urad_scene* scene,

@@ -105,6 +105,14 @@ urad_status urad_pair_source_init(urad_source* source, const urad_scene* scene, 
                                   const urad_net* net, uint16_t rays, urad_counters* counters,
                                   void* memory, size_t bytes);
 
+/* Rays by the worth of a pair, for a source from urad_pair_source_init() or urad_auto_source_init():
+ * as many as were asked for where F is above f_uq32, half of them at a quarter of it, and so on, 4 at
+ * least. At first every pair gets them all. docs/SKIPPING.md says what 64 rays by a worth of 1/64 save.
+ *   f_uq32  UQ0.32, 2^26 is 1/64; 0: all rays for every pair
+ *   cuts    0 .. 6: cuts of patches into four where rays disagree
+ * Failure: URAD_BAD_ARGUMENT (another source, too many cuts). */
+urad_status urad_pair_source_worth(const urad_source* source, uint32_t f_uq32, unsigned cuts);
+
 size_t urad_pose_source_bytes(void);
 
 /* A load per pair from a table made on the host, which holds visibility and repair. Kept: table,
@@ -218,7 +226,8 @@ int urad_radiosity_audit(const urad_radiosity* state, urad_ledger* ledger);
  * urad_radiosity_steps(&state, shots_a_frame, URAD_PERCENT, 0), then urad_radiosity_display() of
  * what is drawn: the picture follows within a few frames and is never worse than the last.
  * A 48 MHz Cortex-M0 with 40 % of its time for light has room for about 20 shots a frame of 294
- * patches by a table, and a lamp that moves by a patch is back to 2 % after 6 frames. */
+ * patches by a table, and a lamp that moves by a patch is back to 2 % after 6 frames.
+ * Geometry that moves: urad/move.h. */
 
 /* Keeps what every patch emits in `memory`, from the scene's materials: call it before they change.
  *   memory  4-byte aligned, bytes >= URAD_RELIGHT_BYTES(scene->patch_count); kept
