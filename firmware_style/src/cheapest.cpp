@@ -1,5 +1,6 @@
 #include "urad/cheapest.hpp"
 
+#include "cheapest_floor.hpp"
 #include "cheapest_models.hpp"
 #include "cheapest_traits.hpp"
 #include "lambert_refiner.hpp"
@@ -24,10 +25,7 @@ int32_t by_network_q24(const PairKernel& kernel, const urad_net& net) noexcept {
   return by_kernel_q24(kernel) + mul_round(network_run(net, inputs.input_q15), inputs.gate_uq16, 8);
 }
 
-int16_t within_q8(int32_t error_q8, int32_t floor_q8) noexcept {
-  const int32_t above = error_q8 > floor_q8 ? error_q8 : floor_q8;
-  return int16_t(above > kMostError_q8 ? kMostError_q8 : above);
-}
+constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a > b ? a : b; }
 
 /// One pair on its way from cheap to dear.
 class Search {
@@ -46,29 +44,40 @@ class Search {
 
   CheapestPair run(const urad_net* net, int16_t log2_error_q8) noexcept {
     wanted_q8_ = log2_error_q8;
-    if (guess(models_.kernel)) return found(by_kernel_q24(kernel_), Way::kernel);
-    if (net && !cut() && guess(models_.network))
-      return found(by_network_q24(kernel_, *net), Way::network);
+    floor_q8_ = grid_q8(traits_);
+    if (moments_do(traits_)) {
+      if (guess(models_.kernel)) return found(by_kernel_q24(kernel_), Way::kernel);
+      if (net && !cut() && guess(models_.network))
+        return found(by_network_q24(kernel_, *net), Way::network);
+    }
     LambertPair pair;
     if (!lambert_pair(scene_, i_, j_, &pair)) return nothing();
+    floor_q8_ = grid_q8(traits_, kernel_);
     if (guess(models_.point) && sum(pair, 1, models_.point, Way::point)) return result_;
     if (guess(models_.before_four) && sum(pair, 2, models_.four_points, Way::four_points))
       return result_;
     return refine(pair);
   }
 
+  CheapestPair nothing() const noexcept {
+    return {kNoExchange, none_q8(scene_, i_, j_), Way::none, point_sums_};
+  }
+
   bool cut() const noexcept { return traits_.pair_class == PairClass::cut; }
 
  private:
   bool guess(const ErrorModel& model) noexcept {
-    error_q8_ = within_q8(error_q8(model, traits_), kLeastError_q8);
-    return error_q8_ <= wanted_q8_;
+    guess_q8_ = error_q8(model, traits_);
+    return guess_q8_ <= wanted_q8_;
+  }
+  /// The guess, or what rounding leaves open where that is more.
+  int16_t said_q8(int32_t rounding_q8) const noexcept {
+    return int16_t(least(greatest(greatest(guess_q8_, floor_q8_), rounding_q8), kMostError_q8));
   }
 
   CheapestPair found(int32_t log2_g_q24, Way way) const noexcept {
-    return {least(log2_g_q24, limit_q24_), error_q8_, way, point_sums_};
+    return {least(log2_g_q24, limit_q24_), said_q8(kLeastError_q8), way, point_sums_};
   }
-  static CheapestPair nothing() noexcept { return {kNoExchange, -32767, Way::none, 0}; }
 
   /// What is known after a sum; true when it is good enough.
   bool judge(const LambertSum& sum, const ErrorModel& model, Way way) noexcept {
@@ -80,8 +89,9 @@ class Search {
     const Patch& carrier = carries(i_, j_) ? i_ : j_;
     const int32_t factor_q8 = q8(sum.log2_exchange_q24 - carrier.shape->log2_area_q24);
     const bool good = guess(model);
-    error_q8_ = within_q8(error_q8_, kSumRounding_q8 - factor_q8);
     result_ = found(sum.log2_exchange_q24, way);
+    result_.log2_error_q8 =
+        said_q8(greatest(greatest(kSumRounding_q8 - factor_q8, kLeastError_q8), sum.log2_dark_q8));
     return good;
   }
 
@@ -111,7 +121,8 @@ class Search {
   PairTraits traits_;
   CheapestPair result_;
   int32_t limit_q24_ = 0;
-  int16_t wanted_q8_ = 0, error_q8_ = 0;
+  int32_t guess_q8_ = 0, floor_q8_ = 0;
+  int16_t wanted_q8_ = 0;
   uint16_t point_sums_ = 0;
 };
 
@@ -121,8 +132,7 @@ CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scen
                                const Patch& j, const urad_net* net, int16_t log2_error_q8,
                                urad_counters* counters) noexcept {
   Search search(models, scene, i, j);
-  CheapestPair pair{kNoExchange, -32767, Way::none, 0};
-  if (search.begin()) pair = search.run(net, log2_error_q8);
+  const CheapestPair pair = search.begin() ? search.run(net, log2_error_q8) : search.nothing();
   if (pair.way == Way::none) {
     ++counters->skipped_facing;
     return pair;

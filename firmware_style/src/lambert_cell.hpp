@@ -8,6 +8,8 @@ namespace urad {
 inline constexpr int kDeepest = 14;  // halvings of a side of a piece
 inline constexpr int kRefinedPoints = 3;
 inline constexpr int kNearDoubt = 5;    // a cell near an edge: 2^-5 of its greatest factor
+inline constexpr int kDark = 4;         // a dark cell: less than 2^-4 of the greatest of all,
+inline constexpr int kDarkShare = 2;    // of which it may hold 2^-2: points leave 0.21 at two edges
 inline constexpr int kParentDoubt = 2;  // each half: 2^-2 of what halving changed
 
 /// A cell, its sum, and what is known of how far that may be off; all 2^-22 of a span.
@@ -21,6 +23,7 @@ struct DoubtfulCell {
   uint8_t level_u, level_v, piece;
   bool along_u;  ///< the side to halve
   bool near;     ///< an edge or vertex of the other is
+  bool dark;     ///< and yet all points see little of it
 };
 
 inline uint64_t larger(uint64_t a, uint64_t b) noexcept { return a > b ? a : b; }

@@ -17,7 +17,7 @@ class Refiner {
   void add_pieces(int points) noexcept {
     pieces_.for_each([&](int number, const Piece& piece) {
       area_ += mean_span(piece);
-      DoubtfulCell cell{0, 0, 0, 0, 0, 0, 0, 0, 0, uint8_t(number), false, false};
+      DoubtfulCell cell{0, 0, 0, 0, 0, 0, 0, 0, 0, uint8_t(number), false, false, false};
       measure(piece, points, &cell);
       keep(cell);
     });
@@ -43,15 +43,14 @@ class Refiner {
   int64_t value() const noexcept { return value_; }
   int64_t area() const noexcept { return area_; }
   int point_sums() const noexcept { return point_sums_; }
+  /// log2 (Q7.8) of what dark cells may hold, by the sum: a corner of each between points and edge.
+  int16_t dark_q8() const noexcept {
+    return share_q8(uint64_t(dark_) << (kNearDoubt - kDarkShare), log2_q24(magnitude(value_)));
+  }
   /// log2 (Q7.8) of what the sum knows of itself, by the sum.
   void fill_traits(int16_t* log2_trait_q8) const noexcept {
     const int32_t log2_value_q24 = log2_q24(magnitude(value_));
-    const auto by_value = [=](uint64_t x) {
-      const int32_t q8 = round_shift(log2_q24(x | 1) - log2_value_q24, 16);
-      return int16_t(q8 > kTraitLimit_q8    ? kTraitLimit_q8
-                     : q8 < -kTraitLimit_q8 ? -kTraitLimit_q8
-                                            : q8);
-    };
+    const auto by_value = [=](uint64_t x) { return share_q8(x, log2_value_q24); };
     int64_t worst = 0;
     for (int k = 0; k < count_; ++k)
       if (pending_[k].doubt > worst) worst = pending_[k].doubt;
@@ -69,6 +68,13 @@ class Refiner {
  private:
   static constexpr int kPending =
       24;  // cells that may still be halved; the least doubtful drop out
+
+  static int16_t share_q8(uint64_t x, int32_t log2_whole_q24) noexcept {
+    const int32_t q8 = round_shift(log2_q24(x | 1) - log2_whole_q24, 16);
+    return int16_t(q8 > kTraitLimit_q8    ? kTraitLimit_q8
+                   : q8 < -kTraitLimit_q8 ? -kTraitLimit_q8
+                                          : q8);
+  }
 
   static int64_t mean_span(const Piece& piece) noexcept {
     return round_shift(piece.span[0] + piece.span[1] + piece.span[2] + piece.span[3], 2);
@@ -103,6 +109,7 @@ class Refiner {
     bend_ += times * cell.bend;
     change_ += times * cell.change;
     changes_ += uint64_t(times * int64_t(magnitude(cell.change)));
+    if (cell.dark) dark_ += times * cell.doubt;
     if (cell.near) near_ += uint64_t(times * int64_t(magnitude(cell.value)));
     leaves_ += times;
   }
@@ -164,6 +171,7 @@ class Refiner {
         along_u_variation.add(points, a, even * v.weight_uq15);
         along_v_variation.add(points, b, even * u.weight_uq15);
         if (int64_t(magnitude(f)) > most) most = int64_t(magnitude(f));
+        if (factor_uq30 > brightest_uq30_) brightest_uq30_ = factor_uq30;
       }
     }
     const int level = cell->level_u + cell->level_v;
@@ -177,7 +185,14 @@ class Refiner {
     uint64_t doubt = orders_later(bend, magnitude(sum));
     if (points == kRefinedPoints) {
       cell->near = is_near(piece, cell);
-      if (cell->near) doubt = larger(doubt, uint64_t(most) >> kNearDoubt);
+      cell->dark = false;
+      if (cell->near) {
+        // Points that all lie beside a near edge do not tell what the cell holds.
+        const uint64_t open = magnitude(round_shift(whole * int64_t{brightest_uq30_}, 8));
+        cell->dark = uint64_t(most) < open >> kDark;
+        if (cell->dark) most = int64_t(open);
+        doubt = larger(doubt, uint64_t(most) >> kNearDoubt);
+      }
     }
     cell->doubt = int64_t(doubt >> level);
   }
@@ -201,9 +216,10 @@ class Refiner {
   const Pieces& pieces_;
   const Outline& receiver_;
   urad_point normal_q30_;
-  int64_t value_ = 0, doubt_ = 0, slope_ = 0, bend_ = 0, change_ = 0, area_ = 0;
+  int64_t value_ = 0, doubt_ = 0, slope_ = 0, bend_ = 0, change_ = 0, area_ = 0, dark_ = 0;
   int64_t older_ = 0, newer_ = 0;  ///< the sum at earlier powers of two of cells
   uint64_t changes_ = 0, near_ = 0;
+  uint32_t brightest_uq30_ = 0;  ///< greatest factor at any point
   int cells_ = 0, leaves_ = 0, next_mark_ = 0, count_ = 0, point_sums_ = 0;
   DoubtfulCell pending_[kPending];
 };
@@ -229,6 +245,7 @@ class LambertRun {
     sum.log2_exchange_q24 =
         pair_.log2_exchange_q24(refiner_.value(), refiner_.area(), pieces_.exponent());
     sum.point_sums = uint16_t(refiner_.point_sums());
+    sum.log2_dark_q8 = refiner_.dark_q8();
     refiner_.fill_traits(sum.log2_trait_q8);
     return sum;
   }

@@ -44,7 +44,10 @@ urad_status urad_form_factor_auto(const urad_scene* scene, uint16_t from, uint16
   const urad::Patch i = urad::patch_at(*scene, from), j = urad::patch_at(*scene, to);
   const urad::CheapestPair pair = urad::cheapest_exchange(*scene, i, j, net, error_q8(error_uq32),
                                                           counters ? counters : &unread);
-  if (pair.way == Way::none) return URAD_OK;
+  if (pair.way == Way::none) {
+    factor->error_uq32 = urad::exp2_uq(pair.log2_error_q8 * 65536, 32);
+    return URAD_OK;
+  }
   factor->f_uq32 = urad::form_factor_uq32(pair.log2_exchange_q24, i.shape->log2_area_q24);
   factor->error_uq32 =
       sum_saturated(urad::exp2_uq(pair.log2_error_q8 * 65536, 32), rounding_uq32(factor->f_uq32));

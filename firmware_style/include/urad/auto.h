@@ -23,7 +23,9 @@ typedef struct urad_auto_factor {
   uint32_t f_uq32;     /* UQ0.32, saturating at 2^32 - 1 */
   uint32_t error_uq32; /* estimate of the relative error, rounding of f_uq32
                           included, saturating: the true error is below it for
-                          99 % of pairs of any kind */
+                          99 % of pairs of any kind. Of URAD_WAY_NONE: 0, or
+                          2^32 - 1 where the two lie on each other's planes within
+                          rounding, so that there may be a factor after all */
   uint16_t points;
   uint16_t way; /* URAD_WAY_* */
 } urad_auto_factor;

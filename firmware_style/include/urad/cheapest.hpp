@@ -10,7 +10,10 @@
 //
 // in this order of cost. What a way is off by is guessed by a small network before it is gone, or,
 // for sums, when it is (error_model.hpp). The networks are fitted to random pairs and moved until
-// what they say holds for 99 % of other pairs (src/cheapest_models.hpp).
+// what they say holds for 99 % of other pairs (src/cheapest_models.hpp). Below that guess no estimate
+// goes under what the grid of coordinates leaves open, or what cells may hold that no point has seen
+// (src/cheapest_floor.hpp); kernel and network are not asked where moments say nothing
+// (moments_do()).
 #pragma once
 #include "urad/error_model.hpp"
 #include "urad/form_factor.hpp"
@@ -21,7 +24,8 @@ enum class Way : uint8_t { none, kernel, network, point, four_points, nine_point
 inline constexpr int kWays = 7;
 
 /// log2 G (Q7.24, or kNoExchange), how it was found, and the estimate of log2 of its relative error
-/// (Q7.8): the true error is below it for 99 % of pairs of any kind.
+/// (Q7.8): the true error is below it for 99 % of pairs of any kind. Of Way::none: -32767 where the
+/// two cannot exchange anything; 0, all of it, where they lie on each other's planes within rounding.
 struct CheapestPair {
   int32_t log2_exchange_q24;
   int16_t log2_error_q8;

@@ -82,6 +82,16 @@ inline int32_t error_q8(const ErrorModel& model, const PairTraits& traits) noexc
   return error;
 }
 
+/// Whether moments say something of a pair. Beyond, the series of which the kernel has two terms
+/// diverges, and no network has been trained.
+///   rho <= 0.35, and T2 at most 2 on either side if nothing cancelled
+constexpr bool moments_do(const PairTraits& traits) noexcept {
+  constexpr int16_t most_rho_q8 = -388, most_bends_q8 = 256;
+  return traits.log2_q8[trait_rho] <= most_rho_q8 &&
+         traits.log2_q8[trait_bends_carrier] <= most_bends_q8 &&
+         traits.log2_q8[trait_bends_receiver] <= most_bends_q8;
+}
+
 /// By the ways that have one.
 struct ErrorModels {
   ErrorModel kernel, network, point, four_points;

@@ -57,8 +57,9 @@ enum SumTrait {
 inline constexpr int16_t kTraitLimit_q8 = 24 * 256;
 
 struct LambertSum {
-  int32_t log2_exchange_q24;          ///< log2 G, or kNoExchange
-  uint16_t point_sums;                ///< how many points it took
+  int32_t log2_exchange_q24;  ///< log2 G, or kNoExchange
+  uint16_t point_sums;        ///< how many points it took
+  int16_t log2_dark_q8;       ///< log2 of what cells may hold that no point has seen, by the sum
   int16_t log2_trait_q8[kSumTraits];  ///< by SumTrait, within +-24; -24 also for log2 0
 };
 
@@ -70,6 +71,8 @@ inline constexpr int kMostRefinedCells = 64;
 ///   Doubt     of a cell: its second differences b along both sides as b (b/sum)^3, but at least
 ///             2^-5 of its greatest factor where an edge or vertex of the other is near by the
 ///             cell's size, and at least 2^-2 of what the halving that made it changed
+///   Dark      a cell that is near and of which all points see next to nothing is doubted by the
+///             greatest factor of all cells: no point sees what lies between it and the edge
 ///   Memory    24 cells of 56 bytes on the stack; the least doubtful drop out, their doubt stays
 LambertSum lambert_refined(const urad_scene& scene, const Patch& i, const Patch& j, int points,
                            int halvings) noexcept;

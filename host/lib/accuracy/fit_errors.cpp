@@ -81,6 +81,7 @@ std::vector<ErrorSample> samples_of(const std::vector<Trial>& trials, Way way,
     if (!urad::exchange_by(scene, urad::patch_at(scene, 0), urad::patch_at(scene, 1), way,
                            request.net, &log2_g_q24, &traits))
       return;
+    if (way <= Way::network && !urad::moments_do(traits)) return;
     if (wanted && urad::error_q8(*wanted, traits) > kWorthTrying_q8) return;
     all[k] = sample_of(trials[k], traits, log2_g_q24);
   });

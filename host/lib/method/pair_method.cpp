@@ -46,7 +46,7 @@ Estimate cheapest(const urad_scene& scene, std::uint16_t shooter, const urad_net
                     q = urad::patch_at(scene, std::uint16_t(1 - shooter));
   const urad::CheapestPair pair =
       urad::cheapest_exchange(scene, p, q, net, log2_error_q8, &counters);
-  if (pair.way == urad::Way::none) return {0, 0};
+  if (pair.way == urad::Way::none) return {0, std::exp2(pair.log2_error_q8 / 256.0)};
   const double f =
       urad::form_factor_uq32(pair.log2_exchange_q24, p.shape->log2_area_q24) / 4294967296.0;
   const double rounding = 0.5 / 4294967296.0;

@@ -88,7 +88,7 @@ void check_error(const std::string& name, const Estimate& estimate, double exact
   findings->measure(name + ": relative error, F > 1e-6", error);
   if (name != "auto") return;
   findings->measure("auto: error beyond 10 % and 3 times what it says",
-                    std::max(0.0, error - std::max(0.1, 3 * estimate.relative_error)));
+                    std::max(0.0, error - std::max(0.1, 3 * estimate.relative_error)), 0);
 }
 
 void check_method(const Method& method, const PolygonPair& pair, double exact, double area_p,
