@@ -95,6 +95,17 @@ void by_method(benchmark::State& state, const char* method) {
   engine(state, source.source());
 }
 
+/// The same integers, every pair once for both directions, without lanes.
+void each_once(benchmark::State& state, const char* method) {
+  const Cube& c = cube();
+  const host::EngineSource source(c.solver.fixed(), host::parse_method(method), fixtures::nets(),
+                                  {});
+  std::vector<std::uint32_t> f(c.n * c.n);
+  urad_counters counters{};
+  for (auto _ : state) host::lane_rows(*source.pairs(), 1, f, &counters);
+  report(state, unpacked(f));
+}
+
 /// The same integers in SIMD lanes.
 void lanes(benchmark::State& state, std::int64_t target) {
   Cube& c = cube();
@@ -106,6 +117,12 @@ void lanes(benchmark::State& state, std::int64_t target) {
 }
 
 const bool kRegistered = [] {
+  for (const char* method : {"auto:0.03", "auto", "auto:0.003", "fixed-lambert:3"}) {
+    const std::string name = std::string("rows/") + method + ", each pair once";
+    benchmark::RegisterBenchmark(name.c_str(), [method](benchmark::State& state) {
+      each_once(state, method);
+    })->Unit(benchmark::kMillisecond);
+  }
   for (const char* method : {"fixed-moment", "auto:0.1", "auto:0.03", "auto", "auto:0.003",
                              "fixed-lambert:3", "legacy:linear50"}) {
     const std::string name = std::string("rows/") + method + ", engine, one by one";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hwy/highway.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -14,6 +15,7 @@
 #include "random_room.hpp"
 #include "scene/builtin.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/cheapest.hpp"
 #include "weights/cornell.h"
 #include "weights/cube7.h"
 #include "weights/general.h"
@@ -58,19 +60,29 @@ std::vector<std::uint32_t> engine_rows(const urad::PairSource& pairs, urad_count
   return f;
 }
 
-void same_as_engine(const host::Scene& scene, const urad_net* net, urad::Kernel kernel) {
-  const host::FixedScene fixed(scene);
-  const urad::PairSource pairs{&fixed.pod(), net, kernel, 16, 0, nullptr};
+void same_as_engine(const urad::PairSource& asked) {
+  using Ways = std::array<std::uint32_t, urad::kWays>;
+  urad::PairSource pairs = asked;
   REQUIRE(host::has_lanes(pairs));
   urad_counters expected_counters{};
+  Ways expected_ways{};
+  pairs.ways = expected_ways.data();
   const std::vector<std::uint32_t> expected = engine_rows(pairs, &expected_counters);
   on_every_target([&] {
     std::vector<std::uint32_t> f(expected.size(), 7);
     urad_counters counters{};
+    Ways ways{};
+    pairs.ways = ways.data();
     host::lane_rows(pairs, 2, f, &counters);
     CHECK(f == expected);
+    CHECK(ways == expected_ways);
     CHECK(std::memcmp(&counters, &expected_counters, sizeof counters) == 0);
   });
+}
+
+void same_as_engine(const host::Scene& scene, const urad_net* net, urad::Kernel kernel) {
+  const host::FixedScene fixed(scene);
+  same_as_engine({&fixed.pod(), net, kernel, 16, 0, nullptr});
 }
 
 }  // namespace
@@ -83,6 +95,21 @@ TEST_CASE("rows of the cube and of random rooms are the engine's") {
   for (const unsigned seed : {21u, 22u}) {
     CAPTURE(seed);
     same_as_engine(random_room(seed), &urad_general, urad::Kernel::moment);
+  }
+}
+
+TEST_CASE("rows by auto and by exact sums, each pair once, are the engine's") {
+  for (const unsigned seed : {23u, 24u}) {
+    CAPTURE(seed);
+    const host::Scene room = random_room(seed);
+    const host::FixedScene fixed(room);
+    urad::PairSource pairs{&fixed.pod(), &urad_general, urad::Kernel::moment, 16, 0, nullptr};
+    pairs.points = 1;
+    same_as_engine(pairs);
+    pairs.points = 0;
+    pairs.log2_error_q8 = urad::kPercentError_q8;
+    pairs.exchange = urad::cheapest_of_source;
+    same_as_engine(pairs);
   }
 }
 

@@ -1,10 +1,12 @@
 #include "lanes/lane_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 #include "base/parallel.hpp"
 #include "lanes/pair_lanes.hpp"
+#include "urad/cheapest.hpp"
 #include "urad/clip.hpp"
 #include "urad/lambert.hpp"
 
@@ -14,11 +16,19 @@ namespace {
 
 /// What one thread works with.
 struct Worker {
-  const urad::PairSource& pairs;
+  urad::PairSource pairs;
   const PatchLanes& patches;
   std::span<std::uint32_t> f_uq32;
   LaneFactors lanes{};
   urad_counters counters{};  // of unordered pairs
+  std::array<std::uint32_t, urad::kWays> ways{};
+
+  Worker(const urad::PairSource& source, const PatchLanes& all, std::span<std::uint32_t> factors)
+      : pairs(source), patches(all), f_uq32(factors) {
+    pairs.counters = &counters;
+    pairs.ways = ways.data();
+  }
+  Worker(const Worker&) = delete;
 
   const urad_scene& scene() const { return *pairs.scene; }
 
@@ -37,12 +47,17 @@ struct Worker {
     factor(j, i) = urad::form_factor_uq32(log2_g_q24, of(PatchLanes::log2_area, j));
   }
 
+  std::int32_t exchange_q24(const urad::Patch& i, const urad::Patch& j) {
+    if (pairs.exchange) return pairs.exchange(pairs, i, j);
+    if (pairs.points) return urad::exchange_exact_q24(scene(), i, j, pairs.points, &counters);
+    return urad::exchange_log2_q24(scene(), i, j, pairs.kernel, pairs.net, 0, &counters);
+  }
+
   void one_by_one(const urad::Patch& i, std::uint16_t first, std::uint16_t count) {
     urad::Patch j = urad::patch_at(scene(), first);
     for (std::uint16_t k = 0; k < count; ++k) {
       if (k) urad::patch_advance(&j);
-      store(i.index, j.index,
-            urad::exchange_log2_q24(scene(), i, j, pairs.kernel, pairs.net, 0, &counters));
+      store(i.index, j.index, exchange_q24(i, j));
     }
   }
 
@@ -74,6 +89,7 @@ struct Worker {
   /// Patch i with those after it.
   void row(std::uint16_t index) {
     const urad::Patch i = urad::patch_at(scene(), index);
+    const bool lanes_know = !pairs.exchange && !pairs.points;
     for (const urad_surface* to = i.surface; to != scene().surface + scene().surface_count; ++to) {
       const auto first = std::max(std::uint16_t(index + 1), to->first_patch);
       const auto count = std::uint16_t(to->first_patch + to->patch_count - first);
@@ -86,7 +102,7 @@ struct Worker {
           to == i.surface ? urad::Side::both : urad::side_of_run(scene(), i, *to);
       if (side == urad::Side::behind) {
         counters.skipped_facing += count;
-      } else if (side == urad::Side::front) {
+      } else if (side == urad::Side::front && lanes_know) {
         in_lanes(i, first, count);
       } else {
         one_by_one(i, first, count);
@@ -118,8 +134,7 @@ void add_twice(const urad_counters& part, urad_counters* sum) {
 }  // namespace
 
 bool has_lanes(const urad::PairSource& pairs) {
-  return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.points == 0 && !pairs.exchange &&
-         pairs.bound_uq32 == 0 && pairs.skips_off == 0;
+  return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.bound_uq32 == 0 && pairs.skips_off == 0;
 }
 
 void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32_t> f_uq32,
@@ -130,7 +145,7 @@ void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32
   std::mutex sum;
   const std::size_t workers = std::min(thread_count(threads), n);
   parallel_for(workers, threads, [&](std::size_t worker) {
-    Worker work{pairs, patches, f_uq32};
+    Worker work(pairs, patches, f_uq32);
     std::uint32_t behind = 0;
     for (std::size_t i = worker; i < n; i += workers) {
       work.row(std::uint16_t(i));
@@ -139,6 +154,8 @@ void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32
     const std::lock_guard<std::mutex> guard(sum);
     add_twice(work.counters, counters);
     counters->skipped_behind += behind;
+    for (std::size_t k = 0; pairs.ways && k < work.ways.size(); ++k)
+      pairs.ways[k] += 2 * work.ways[k];
   });
 }
 

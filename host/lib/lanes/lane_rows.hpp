@@ -1,4 +1,4 @@
-// All factors of a convex scene by kernel or network, in SIMD lanes.
+// All factors of a convex scene, each unordered pair done once, by kernel or network in SIMD lanes.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -7,14 +7,15 @@
 
 namespace host {
 
-/// True where lane_rows() gives what urad::pair_fill() gives: the scene is convex, every pair goes
-/// by kernel or network, no skip is switched off and none bounded.
+/// True where lane_rows() gives what urad::pair_fill() gives: the scene is convex, no skip is
+/// switched off and none bounded.
 bool has_lanes(const urad::PairSource& pairs);
 
-/// Factors [N][N] UQ0.32, the same bits as urad::pair_fill() row by row, and adds to *counters what
-/// it would count. Each unordered pair is done once: in lanes where two surfaces wholly face each
-/// other, by the engine where they do not or where the network hands over to the exact sum.
-/// has_lanes(pairs) holds; pairs.counters is not used.
+/// Factors [N][N] UQ0.32, the same bits as urad::pair_fill() row by row, and adds to *counters (and
+/// to pairs.ways, if there are some) what it would count. Pairs by kernel or network go in lanes
+/// where two surfaces wholly face each other; by the engine where they do not, where the network
+/// hands over to the exact sum, and where every pair goes by a sum or by auto. has_lanes(pairs)
+/// holds; pairs.counters is not used.
 void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32_t> f_uq32,
                urad_counters* counters);
 

@@ -246,6 +246,7 @@ EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const Ne
     const auto start = std::chrono::steady_clock::now();
     lane_rows(*pairs, threads, rows.f_uq32, &rows.counters);
     rows.seconds = since(start) * double(thread_count(threads));
+    rows.ways = first.ways();
     return rows;
   }
   std::mutex sum;

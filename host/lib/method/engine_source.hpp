@@ -93,7 +93,8 @@ struct EngineRows {
   }
 };
 
-/// Pairs of convex scenes go through SIMD lanes (lanes/lane_rows.hpp) with the same bits.
+/// Pairs of convex scenes are done once for both directions, by kernel or network in SIMD lanes
+/// (lanes/lane_rows.hpp), with the same bits.
 EngineRows engine_rows(const FixedScene& scene, const MethodSpec& spec, const NetChoice& nets,
                        const EngineOptions& options, int threads);
 
