@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "network/checkpoint.hpp"
+#include "network/engine_range.hpp"
+#include "network/quantise.hpp"
 #include "network/random.hpp"
 
 namespace {
@@ -95,6 +97,25 @@ TEST_CASE("a net learns what a net of the same size says") {
   for (const host::Sample& s : other.samples)
     worst = std::max(worst, std::fabs(s.target - s.gate() * net->run(s.input_q15.data())));
   CHECK(worst < 1e-4);
+}
+
+TEST_CASE("inputs set off against each other end in weights that the engine can hold") {
+  host::TrainingSet set = taught_set(random_net(2, kSeed + 8), 400, kSeed + 9);
+  host::Random random(kSeed + 10);
+  for (host::Sample& s : set.samples) {
+    const int apart = int(random.below(25)) - 12;  // units of 2^-15
+    s.input_q15[1] = std::int16_t(s.input_q15[0] / 2 + apart);
+    s.input_q15[0] = std::int16_t(s.input_q15[0] / 2);
+    s.target = s.gate() * apart;  // 32768 (x1 - x0)
+  }
+  const auto net = host::train(set, {}, settings(2));
+  REQUIRE(net);
+  CHECK(host::engine_can_hold(*net));
+  CHECK_NOTHROW(host::QuantisedNet(host::round_net(*net, 16, 0)));
+  host::FloatNet ideal(urad::kPairInputs, 2);
+  ideal.parameters[ideal.skip_at()] = -32768, ideal.parameters[ideal.skip_at() + 1] = 32768;
+  CHECK_FALSE(host::engine_can_hold(ideal));
+  CHECK_THROWS_AS(host::QuantisedNet(host::round_net(ideal, 16, 0)), host::Error);
 }
 
 TEST_CASE("a training that is stopped and resumed through its file ends with the same bits") {

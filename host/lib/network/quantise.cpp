@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "network/engine_range.hpp"
 #include "network/trainer.hpp"
 
 namespace host {
@@ -14,13 +15,6 @@ namespace host {
 namespace {
 
 constexpr double kFullScale = 32768;
-// sum |w_q| 2^15 + |b_q| < 2^31, with room for the rounding of up to 33 weights by half a unit
-// each.
-constexpr double kSumMax = 65535 - 33 / 2.0;
-
-// The engine's shifts begin at 17 (net.h). Larger weights than that lets through are cut.
-constexpr double kFactorMax = 0.5 - 0x1p-14;
-
 // Scale of one accumulator: real weight per integer. rescale is exact, so the weights can be
 // rounded against it.
 struct Scale {
@@ -45,13 +39,9 @@ std::uint16_t threshold_uq16(double rho, const char* which) {
 double weight_max(int bits) { return bits == 8 ? 127 : 32767; }
 
 Scale hidden_scale(const FloatNet& net, int h, int bits) {
-  double sum = std::fabs(net.hidden_bias(h)), largest = 0;
-  for (int n = 0; n < net.inputs(); ++n) {
-    sum += std::fabs(net.hidden_weight(h, n));
-    largest = std::max(largest, std::fabs(net.hidden_weight(h, n)));
-  }
-  // z_q11 = accumulator * unit * 2^11 / 2^15
-  return scale_for(std::max(largest / weight_max(bits), sum / kSumMax), 0x1p-4);
+  const WeightReach reach = hidden_reach(net, h);
+  return scale_for(std::max(reach.largest / weight_max(bits), reach.sum / kWeightSumMax),
+                   kHiddenUnits);
 }
 
 std::int16_t round16(double x) { return static_cast<std::int16_t>(std::lround(x)); }
@@ -65,13 +55,11 @@ std::int32_t round_bias(double bias, double unit) {
 
 // Everything but the hidden weights, which are already integers in `tables`.
 void round_rest(const FloatNet& net, const std::vector<Scale>& scales, NetTables* tables) {
-  double sum = std::fabs(net.output_bias()), largest = 0;
-  for (int p = net.output_at(); p < net.bias_at(); ++p) {
-    sum += std::fabs(net.parameters[p]);
-    largest = std::max(largest, std::fabs(net.parameters[p]));
-  }
-  // y_q16 = accumulator * unit * 2^16 / 2^15
-  const Scale output = scale_for(std::max(largest / weight_max(16), sum / (kSumMax - 32)), 2);
+  if (!engine_can_hold(net))
+    throw Error("weights of many thousands do not fit the engine's 16 bits");
+  const WeightReach reach = output_reach(net);
+  const Scale output =
+      scale_for(std::max(reach.largest / weight_max(16), reach.sum / kOutputSumMax), kOutputUnits);
   tables->output_rescale = output.rescale;
   tables->output_bias = round_bias(net.output_bias(), output.unit);
   tables->hidden_bias.clear(), tables->hidden_rescale.clear();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "network/engine_range.hpp"
 #include "network/random.hpp"
 
 namespace host {
@@ -25,9 +26,9 @@ struct Damping {
 };
 
 // One step [Marquardt 1963; damping by gain ratio: Nielsen 1999]. False, net untouched, when no
-// damping helps. free empty: all parameters.
-bool step(const Objective& objective, double robust, double decay, const std::vector<int>& free,
-          FloatNet* net, Damping* damping) {
+// damping helps to a lower loss that the engine can hold. free empty: all parameters.
+bool step(const Objective& objective, const Normalisation& scaling, double robust, double decay,
+          const std::vector<int>& free, FloatNet* net, Damping* damping) {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
   const double loss =
@@ -55,7 +56,8 @@ bool step(const Objective& objective, double robust, double decay, const std::ve
     const double moved_loss =
         objective.value(moved, robust) + decay * moved.parameters.squaredNorm();
     const double expected = move.dot(damping->lambda * scale.cwiseProduct(move) + gradient);
-    if (std::isfinite(moved_loss) && moved_loss < loss && expected > 0) {
+    if (std::isfinite(moved_loss) && moved_loss < loss && expected > 0 &&
+        engine_can_hold(fold_normalisation(moved, scaling.mean, scaling.deviation))) {
       const double gain = (loss - moved_loss) / expected;
       damping->lambda *= std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3));
       damping->lambda = std::max(damping->lambda, 1e-12);
@@ -170,7 +172,7 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
         FloatNet net(urad::kPairInputs, settings.hidden);
         net.parameters = to_eigen(c.parameters);
         Damping damping{c.damping, c.growth};
-        c.finished = !step(objective, stage.robust, settings.decay, {}, &net, &damping);
+        c.finished = !step(objective, scaling, stage.robust, settings.decay, {}, &net, &damping);
         c.damping = damping.lambda, c.growth = damping.growth;
         c.parameters = to_std(net.parameters);
         const double value = judge.value(net, stage.robust);
@@ -208,7 +210,7 @@ FloatNet refine(const FloatNet& net, const TrainingSet& training, const std::vec
   FloatNet moved = unfold_normalisation(net, scaling.mean, scaling.deviation);
   Damping damping;
   for (int k = 0; k < iterations; ++k)
-    if (!step(objective, robust, decay, index, &moved, &damping)) break;
+    if (!step(objective, scaling, robust, decay, index, &moved, &damping)) break;
   return fold_normalisation(moved, scaling.mean, scaling.deviation);
 }
 

@@ -54,7 +54,7 @@ struct TrainerHooks {
 };
 
 /// The net that is best on `validation` over all steps of the last stage, for inputs as they are
-/// (no normalisation), or nothing when the hook stopped it. An empty validation set: `training`
+/// (no normalisation) and within what the engine can hold (engine_range.hpp), or nothing when the hook stopped it. An empty validation set: `training`
 /// judges. Error when no sample needs the network or a resumed state belongs to other settings.
 std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& validation,
                               const TrainerSettings& settings, const TrainerHooks& hooks = {});
