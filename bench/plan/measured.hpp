@@ -1,7 +1,9 @@
 // What bench/plan/measure.sh leaves in a folder: counted rows and solves, and the light of every
 // method.
 #pragma once
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -79,9 +81,10 @@ struct Measured {
     CountedRow row;
     std::uint32_t runs = 0;
     urad_counters counters{};
+    std::array<decltype(counters.evaluated), sizeof counters / sizeof counters.evaluated> counts{};
     label >> row.patch >> runs;
-    auto* to = &counters.evaluated;
-    for (std::size_t k = 0; k < sizeof counters / sizeof *to; ++k) label >> to[k];
+    for (auto& counted : counts) label >> counted;
+    std::memcpy(&counters, counts.data(), sizeof counters);
     host::RowSetting setting;
     std::string method = name;
     const urad_scene& pod = fixed.pod();

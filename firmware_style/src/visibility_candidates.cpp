@@ -47,7 +47,7 @@ RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const ur
       last_(last),
       reject_(reject),
       known_(reject && run) {
-  if (!known_) return;
+  if (!reject || !run) return;
   const Reach to = reach_of(*run);
   urad_point low = reach_.low, high = reach_.high;
   stretch(to, &low, &high);

@@ -59,10 +59,13 @@ urad_point Flat::join(int32_t u, int32_t v, int32_t dropped) const noexcept {
 }
 
 PatchSampler::PatchSampler(const urad_scene& scene, const Patch& patch) noexcept
-    : scene_(scene), patch_(patch), flat_(patch.shape->normal_q30), kind_(Kind::any) {
-  origin_ = patch_vertex(scene, patch, 0);
-  along_x_ = patch_vertex(scene, patch, 1) - origin_;
-  along_y_ = patch_vertex(scene, patch, uint16_t(patch.vertex_count - 1)) - origin_;
+    : scene_(scene),
+      patch_(patch),
+      flat_(patch.shape->normal_q30),
+      kind_(Kind::any),
+      origin_(patch_vertex(scene, patch, 0)),
+      along_x_(patch_vertex(scene, patch, 1) - origin_),
+      along_y_(patch_vertex(scene, patch, uint16_t(patch.vertex_count - 1)) - origin_) {
   if (patch.vertex_count == 3) kind_ = Kind::triangle;
   if (patch.vertex_count == 4) {
     // The fourth corner where a parallelogram has it, to the rounding of four vertices.

@@ -63,8 +63,9 @@ std::string method_plots_svg(const MethodTrials& trials, MethodCost cost) {
         points, {table.title, host ? "host time of a pair" : "Cortex-M0 instructions of a pair",
                  host ? "s" : "", "95 % of the pairs are off by less"});
     if (plot.empty()) continue;
-    const double x = double(count % kColumns) * kPanelWidth;
-    const double y = double(count / kColumns) * (kPanelHeight + kTitleHeight);
+    const std::size_t column = count % kColumns, row = count / kColumns;
+    const double x = double(column) * kPanelWidth;
+    const double y = double(row) * (kPanelHeight + kTitleHeight);
     panels += fmt::format(
         "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" fill=\"currentColor\" "
         "style=\"font:bold 14px system-ui,sans-serif\">{}</text>\n"

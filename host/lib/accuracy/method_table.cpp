@@ -51,6 +51,8 @@ Values by_engine(const PairSet& set, const TableMethod& method) {
     const std::size_t end = std::min(first + kChunk, set.pairs.size());
     std::vector<FixedScene> scenes;
     std::vector<EngineSource> sources;
+    scenes.reserve(end - first);
+    sources.reserve(end - first);
     for (std::size_t k = first; k < end; ++k)
       scenes.push_back(FixedScene::of_polygons({set.pairs[k].p, set.pairs[k].q}, {}));
     for (const FixedScene& scene : scenes)

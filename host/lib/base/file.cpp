@@ -46,14 +46,15 @@ class Replacement {
     try {
       write(beside_);
     } catch (...) {
-      std::remove(beside_.c_str());
+      fs::remove(beside_, none);
       throw;
     }
   }
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
   ~Replacement() {
-    if (!beside_.empty()) std::remove(beside_.c_str());
+    std::error_code none;
+    if (!beside_.empty()) fs::remove(beside_, none);
   }
 
   bool has_name() const { return !beside_.empty(); }
@@ -108,6 +109,7 @@ void expect_different_files(const std::vector<NamedPath>& paths) {
 
 void write_files_atomically(const std::vector<OutputFile>& files) {
   std::vector<std::unique_ptr<Replacement>> written;
+  written.reserve(files.size());
   for (const OutputFile& file : files)
     written.push_back(std::make_unique<Replacement>(file.path, file.content));
   for (const auto& file : written)

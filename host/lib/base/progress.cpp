@@ -15,7 +15,7 @@ Progress::Progress(std::string what, std::size_t total, bool quiet)
       terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
+  if (!quiet_ && terminal_ && shown_ > 0) fmt::print(stderr, "\r\033[K");
 }
 
 void Progress::add(std::size_t steps) {
@@ -36,7 +36,7 @@ void Progress::show(std::size_t done) {
   if (terminal_) {
     const std::string bar(part * 30 / 100, '#');
     fmt::print(stderr, "\r{} [{:<30}] {:3} %  {:.0f} s left\033[K", what_, bar, part, left);
-    std::fflush(stderr);
+    (void)std::fflush(stderr);  // a bar that is not seen harms nobody
   } else {
     fmt::print(stderr, "{}: {} %, {:.0f} s left\n", what_, part * 10, left);
   }
