@@ -116,6 +116,8 @@ TEST_CASE("wrong usage has status 2 and says what would do") {
     CHECK(outcome.status == 2);
     CHECK(outcome.text.find("Try: urad help") != std::string::npos);
   }
+  CHECK(urad("solve cube7 --shot 5").text.find("--shots would do") != std::string::npos);
+  CHECK(urad("solv cube7").text.find("solve would do") != std::string::npos);
   for (const char* topic : {"", "solve", "bake", "train", "export", "evaluate", "formfactor"}) {
     CHECK(urad(std::string("help ") + topic).status == 0);
   }

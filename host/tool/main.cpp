@@ -1,11 +1,13 @@
 // urad -- the host program. Exit status: 0 done, 1 failed, 2 wrong usage.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 
 #include "base/error.hpp"
+#include "base/nearest_name.hpp"
 #include "command.hpp"
 
 namespace {
@@ -20,6 +22,31 @@ void add_help(CLI::App& app, std::string* topic) {
     std::fputs(topic->empty() ? app.help().c_str() : app.get_subcommand(*topic)->help().c_str(),
                stdout);
   });
+}
+
+std::string no_such(const std::string& word, const std::string& what,
+                    const std::vector<std::string>& known) {
+  const auto meant = host::nearest_name(word, known);
+  return fmt::format("{}: {}{}", word, what,
+                     meant ? fmt::format(", {} would do", known[*meant]) : "");
+}
+
+/// A word that nothing knows is the mistake, whatever is missing beside it.
+std::string wrong_usage(const CLI::App& app, const CLI::ParseError& wrong) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  const auto commands = app.get_subcommands();
+  std::vector<std::string> known;
+  if (commands.empty()) {
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    return unknown.empty() ? wrong.what() : no_such(unknown.front(), "no such command", known);
+  }
+  const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& word) { return word.front() == '-'; });
+  if (option == unknown.end()) return wrong.what();
+  for (const CLI::App* level : std::vector<const CLI::App*>{commands.front(), &app})
+    for (const CLI::Option* each : level->get_options())
+      for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+  return no_such(*option, commands.front()->get_name() + " has no such option", known);
 }
 
 }  // namespace
@@ -53,7 +80,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& wrong) {
-    fmt::print(stderr, "urad: {}\nTry: urad help\n", wrong.what());
+    fmt::print(stderr, "urad: {}\nTry: urad help\n", wrong_usage(app, wrong));
     return kWrongUsage;
   } catch (const CLI::OptionNotFound&) {
     fmt::print(stderr, "urad: help: there is no command \"{}\"\nTry: urad help\n", topic);

@@ -5,28 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
+
+#include "base/nearest_name.hpp"
 
 namespace host {
-
-namespace {
-
-/// Letters to change, leave out or put in [Levenshtein 1966].
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-    }
-  }
-  return row.back();
-}
-
-}  // namespace
 
 int MethodSpec::number(int otherwise, int least, int most) const {
   if (argument.empty()) return otherwise;
@@ -80,12 +63,11 @@ UsageError unknown_method(const MethodSpec& spec, const std::vector<std::string>
   const auto name = [](const std::string& entry) {
     return entry.substr(0, entry.find_first_of(":["));
   };
-  const auto away = [&](const std::string& entry) { return distance(spec.name, name(entry)); };
-  const auto nearest = std::min_element(
-      known.begin(), known.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
-  const bool close = nearest != known.end() && 3 * away(*nearest) <= name(*nearest).size();
+  std::vector<std::string> names;
+  std::transform(known.begin(), known.end(), std::back_inserter(names), name);
+  const auto meant = nearest_name(spec.name, names);
   return UsageError(fmt::format("--method {}: unknown{}; known are {}", spec.text(),
-                                close ? fmt::format(", {} would do", *nearest) : "",
+                                meant ? fmt::format(", {} would do", known[*meant]) : "",
                                 fmt::join(known, ", ")));
 }
 
