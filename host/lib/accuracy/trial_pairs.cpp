@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "accuracy/pair_families.hpp"
@@ -111,6 +112,28 @@ PolygonPair size_ratios(Random& random) {
   return placed(pair, random);
 }
 
+/// As buildings have them: many sides and shifts in small ratios, so that much cancels by symmetry.
+PolygonPair aligned_rectangles(Random& random) {
+  const auto one_of = [&](const auto& values) {
+    return values[random.below(int(std::size(values)))];
+  };
+  constexpr double kSides[] = {1, 1, 1, 2, 0.5, 3, 0.1};
+  constexpr double kDegrees[] = {90, 90, 90, 45, 135, 60, 120};
+  const auto side = [&] { return random.below(3) ? one_of(kSides) : random.log_uniform(0.05, 10); };
+  const double w = side(), h = side(), u = side(), v = side();
+  const double gap = random.log_uniform(1e-3, 5);
+  if (random.below(2)) {  // a wall over a floor, moved apart in one or both directions
+    const double length = random.below(2) ? 1 : v;
+    const double beside[] = {0, (1 - length) / 2, (1 - length) / 2, 1};
+    PolygonPair pair = walls(one_of(kDegrees), w, u, one_of(beside), length, gap);
+    if (random.below(2))
+      for (Vec3& x : pair.p.outer) x.x += gap;
+    return placed(pair, random);
+  }
+  const double x[] = {0, (w - u) / 2, (w - u) / 2, w}, y[] = {0, (h - v) / 2, (h - v) / 2, h};
+  return placed({rectangle(w, h), flipped(rectangle(u, v, gap, one_of(x), one_of(y)))}, random);
+}
+
 Polygon regular(int corners, Random& random) {
   Polygon polygon;
   const double stretch = random.log_uniform(0.4, 2.5), turn = random.uniform(0, 2 * kPi);
@@ -159,6 +182,7 @@ std::vector<TrialFamily> trial_families() {
       {"partly behind", partly_behind},
       {"slivers", slivers},
       {"size ratios to 1e6", size_ratios},
+      {"aligned rectangles", aligned_rectangles},
       {"triangles and pentagons", few_corners, true},
       {"close plates", close_plates, true},
       {"turned rectangles",

@@ -21,8 +21,8 @@ struct TrialFamily {
 };
 
 /// Random quads (convex, concave), room pairs, shared edges at all angles and aspect ratios, part
-/// of an edge, a vertex in common, nearly touching, partly behind, slivers, size ratios to 1e6;
-/// only to be tested on: triangles and pentagons, plates close to each other, freely turned
+/// of an edge, a vertex in common, nearly touching, partly behind, slivers, size ratios to 1e6,
+/// aligned rectangles; only to be tested on: triangles and pentagons, plates close to each other, freely turned
 /// rectangles.
 std::vector<TrialFamily> trial_families();
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "form_factor/closed_form.hpp"
 #include "form_factor/contour_rule.hpp"
+#include "form_factor/facing.hpp"
 #include "form_factor/gauss.hpp"
 #include "form_factor/kernel.hpp"
 #include "form_factor/lambert.hpp"
@@ -38,17 +39,29 @@ PairResult by_closed_form(const Polygon& p, const Polygon& q) {
   return {result.estimate()};
 }
 
+urad::CheapestPair cheapest_pair(const urad_scene& scene, std::uint16_t shooter,
+                                 const urad_net* net, std::int16_t log2_error_q8) {
+  urad_counters counters{};
+  return urad::cheapest_exchange(scene, urad::patch_at(scene, shooter),
+                                 urad::patch_at(scene, std::uint16_t(1 - shooter)), net,
+                                 log2_error_q8, &counters);
+}
+
+/// Whether the engine finds nothing because one lies on the other's plane within its grid, and in
+/// double it does not.
+bool below_grid(const urad_scene& scene, const Polygon& p, const Polygon& q) {
+  const urad::CheapestPair pair = cheapest_pair(scene, 0, nullptr, urad::kPercentError_q8);
+  return pair.way == urad::Way::none && pair.log2_error_q8 == 0 && !clip_to_front(p, q).empty();
+}
+
 /// The engine's cheapest way and what it thinks of it, the rounding of F included.
 Estimate cheapest(const urad_scene& scene, std::uint16_t shooter, const urad_net* net,
                   std::int16_t log2_error_q8) {
-  urad_counters counters{};
-  const urad::Patch p = urad::patch_at(scene, shooter),
-                    q = urad::patch_at(scene, std::uint16_t(1 - shooter));
-  const urad::CheapestPair pair =
-      urad::cheapest_exchange(scene, p, q, net, log2_error_q8, &counters);
-  if (pair.way == urad::Way::none) return {0, std::exp2(pair.log2_error_q8 / 256.0)};
-  const double f =
-      urad::form_factor_uq32(pair.log2_exchange_q24, p.shape->log2_area_q24) / 4294967296.0;
+  const urad::CheapestPair pair = cheapest_pair(scene, shooter, net, log2_error_q8);
+  if (pair.way == urad::Way::none) return {};
+  const double f = urad::form_factor_uq32(pair.log2_exchange_q24,
+                                          urad::patch_at(scene, shooter).shape->log2_area_q24) /
+                   4294967296.0;
   const double rounding = 0.5 / 4294967296.0;
   return {f, std::exp2(pair.log2_error_q8 / 256.0) + (f > 0 ? rounding / f : 1)};
 }
@@ -74,12 +87,18 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
       const FixedScene scene =
           FixedScene::of_polygons({swapped ? to : from, swapped ? from : to}, {});
       const std::uint16_t shooter = swapped ? 1 : 0;
-      if (knows_error)
-        return PairResult{cheapest(scene.pod(), shooter, nets.general(), log2_error_q8)};
-      const EngineSource source(scene, spec, nets, {});
-      std::array<std::uint32_t, 2> row{};
-      source.row(shooter, row.data());
-      return PairResult{{row[1 - shooter] / 4294967296.0}};
+      PairResult result;
+      if (knows_error) {
+        result.estimate = cheapest(scene.pod(), shooter, nets.general(), log2_error_q8);
+      } else {
+        const EngineSource source(scene, spec, nets, {});
+        std::array<std::uint32_t, 2> row{};
+        source.row(shooter, row.data());
+        result.estimate.f = row[1 - shooter] / 4294967296.0;
+      }
+      if (result.estimate.f == 0 && below_grid(scene.pod(), p, q))
+        return PairResult{{}, "unsupported_range"};
+      return result;
     } catch (const Error&) {  // sizes that no common unit can hold
       return PairResult{{}, "unsupported_range"};
     }
