@@ -214,6 +214,39 @@ TEST_CASE(
   CHECK(host::read_file(without + ".json").find("\"converged_rms\": null") == std::string::npos);
 }
 
+TEST_CASE("an open scene is solved by factors whose rows pass 1, as the engine divides them") {
+  const fs::path folder = scratch("rows_above_1");
+  host::write_file_atomically((folder / "plates.csv").string(),
+                              "patch,polygon,rho_r,rho_g,rho_b,emit\n"
+                              "floor,0 0 0;1 0 0;1 1 0;0 1 0,0.5,0.5,0.5,1\n"
+                              "ceiling,0 0 0.3;0 1 0.3;1 1 0.3;1 0 0.3,0.5,0.5,0.5,0\n"
+                              "wall,0 0 0;0 1 0;0 1 0.3;0 0 0.3,0.5,0.5,0.5,0\n");
+  const std::string path = (folder / "report.json").string();
+  const Outcome outcome = urad("solve " + (folder / "plates.csv").string() +
+                               " --method kernel --error 0.001 --out - --report " + path);
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 0);
+  const std::string report = host::read_file(path);
+  CHECK(report.find("\"rows_over\": 0") == std::string::npos);
+}
+
+TEST_CASE("a net is evaluated on its scene meshed as it was trained") {
+  const fs::path folder = scratch("own_mesh");
+  const std::string net = (folder / "n.json").string(), scene = (folder / "plates.obj").string();
+  host::write_file_atomically((folder / "plates.mtl").string(),
+                              "newmtl grey\nKd 1 0 0\nKe 1 1 1\n");
+  host::write_file_atomically(
+      scene,
+      "mtllib plates.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\n"
+      "v 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 8 7 6 5\n");
+  const Outcome trained = urad("train --scene " + scene + " --subdivide 2 --hidden 1 -o " + net);
+  CAPTURE(trained.text);
+  REQUIRE(trained.status == 0);
+  const std::string own = urad("evaluate " + net).text;
+  CHECK(own.find("32 ordered pairs") != std::string::npos);
+  CHECK(own == urad("evaluate " + net + " --subdivide 2").text);
+}
+
 TEST_CASE("outputs of one name are refused; when one cannot be written, none is") {
   const fs::path folder = scratch("outputs");
   const auto path = [&](const char* name) { return (folder / name).string(); };

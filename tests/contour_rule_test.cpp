@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/pair_families.hpp"
@@ -30,6 +31,16 @@ TEST_CASE("contour rule: what lies behind is cut off, both directions agree") {
   CHECK(2 * host::contour_estimate(wall, floor, 8).f ==
         doctest::Approx(host::contour_estimate(floor, wall, 8).f).epsilon(1e-9));
   CHECK(host::contour_estimate(floor, host::rectangle(1, 1, -1), 2).f == 0);
+}
+
+TEST_CASE("contour rule: a hole may be written in either direction") {
+  host::Polygon floor = host::rectangle(4, 4);
+  floor.holes = {{{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}}};
+  const host::Polygon ceiling = host::flipped(host::rectangle(4, 4, 2));
+  const double exact = host::reference_form_factor(floor, ceiling);
+  CHECK(host::contour_estimate(floor, ceiling, 8).f == doctest::Approx(exact).epsilon(1e-6));
+  std::reverse(floor.holes[0].begin(), floor.holes[0].end());
+  CHECK(host::contour_estimate(floor, ceiling, 8).f == doctest::Approx(exact).epsilon(1e-6));
 }
 
 TEST_CASE("contour rule: walls that share an edge defeat it") {

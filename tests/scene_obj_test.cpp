@@ -140,6 +140,21 @@ TEST_CASE("every bad OBJ and MTL gets one sentence with file and line") {
   check_message(message(kPlates + kLamp, kMaterials, {0, -1}), "", "not -1");
 }
 
+TEST_CASE("mtllib may name a file twice, or several; what no face uses need not be there") {
+  const std::string faces =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl nothere\nusemtl lamp\nf 1 2 3 4\n"
+      "usemtl white\nf 4 3 2 1\n";
+  CHECK(parse("mtllib room.mtl\n" + faces + "mtllib room.mtl\n").patches.size() == 2);
+  const auto read = [](const std::string& name) -> std::string {
+    if (name == "a.mtl") return "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
+    if (name == "b.mtl") return "newmtl white\nKd 0.5 0.5 0.5\n";
+    throw host::Error("cannot read " + name);
+  };
+  CHECK(host::parse_obj("mtllib a.mtl b.mtl\n" + faces, "x.obj", {}, read).patches.size() == 2);
+  CHECK_THROWS_WITH_AS(host::parse_obj("mtllib a.mtl c.mtl\n" + faces, "x.obj", {}, read),
+                       doctest::Contains("c.mtl"), host::Error);
+}
+
 TEST_CASE("files are read relative to the OBJ, and a missing one is named") {
   const std::string folder = std::string(URAD_SCRATCH_DIR) + "/";
   std::ofstream(folder + "scene_obj_test.mtl") << kMaterials;

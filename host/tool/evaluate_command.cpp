@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include "accuracy/fit_errors.hpp"
 #include "accuracy/method_document.hpp"
@@ -28,6 +29,17 @@ struct Options {
   std::size_t pairs = 4000;
   std::uint64_t seed = 20240229;
 };
+
+/// The meshing that a net was trained with, from the command that it keeps.
+host::MeshOptions mesh_of_command(const std::string& command) {
+  host::MeshOptions mesh;
+  std::istringstream words(command);
+  for (std::string word; words >> word;) {
+    if (word == "--subdivide") words >> mesh.subdivide;
+    if (word == "--patch-size") words >> mesh.patch_size;
+  }
+  return mesh;
+}
 
 struct Entry {
   std::string name;
@@ -138,8 +150,12 @@ void run(const Options& options, const Common& common) {
   const bool general = files.front().subject == "general";
   const std::string& scene =
       options.scene.empty() && !general ? files.front().subject : options.scene;
-  if (!scene.empty())
-    text += on_scene(host::load_scene(scene, options.mesh), entries, far_rho, common);
+  if (!scene.empty()) {
+    const bool own =
+        options.scene.empty() && !options.mesh.subdivide && !(options.mesh.patch_size > 0);
+    const host::MeshOptions mesh = own ? mesh_of_command(files.front().command) : options.mesh;
+    text += on_scene(host::load_scene(scene, mesh), entries, far_rho, common);
+  }
   if (scene.empty()) text += on_random_pairs(options, entries, far_rho, common);
   host::write_file_atomically(options.out, text);
 }
@@ -162,8 +178,9 @@ void add_evaluate(CLI::App& app, const Common& common) {
   command->add_flag(
       "--fit-auto", options->fit_auto,
       "Fit the constants of method auto and write firmware_style/src/cheapest_models.hpp");
-  command->add_option("--scene", options->scene,
-                      "Scene to measure on; default: the first net's own, if it has one");
+  command->add_option(
+      "--scene", options->scene,
+      "Scene to measure on; default: the first net's own, meshed as it was trained");
   add_mesh_options(command, &options->mesh);
   command->add_option("--bits", options->bits, "Which of the quantised nets")
       ->check(CLI::IsMember({8, 16}))

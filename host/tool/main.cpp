@@ -19,8 +19,10 @@ void add_help(CLI::App& app, std::string* topic) {
   CLI::App* help = app.add_subcommand("help", "Explain urad or one of its commands");
   help->add_option("command", *topic, "The command to explain");
   help->callback([&app, topic] {
-    std::fputs(topic->empty() ? app.help().c_str() : app.get_subcommand(*topic)->help().c_str(),
-               stdout);
+    // app.help() would be that of the command in work, which is `help`.
+    const std::string all =
+        app.get_formatter()->make_help(&app, "urad", CLI::AppFormatMode::Normal);
+    std::fputs(topic->empty() ? all.c_str() : app.get_subcommand(*topic)->help().c_str(), stdout);
   });
 }
 

@@ -72,8 +72,10 @@ bool all_dark(const host::Scene& scene, const std::vector<host::Vec3>& radiosity
 }
 
 void run(const Options& options, const Common& common) {
-  host::expect_different_files(
-      {{"--out", options.out}, {"--rows", options.rows}, {"--report", options.report}});
+  host::expect_different_files({{"SCENE", options.scene.name},
+                                {"--out", options.out},
+                                {"--rows", options.rows},
+                                {"--report", options.report}});
   std::vector<host::OutputFile> files;
   const Nets nets(options.net);
   const host::MethodSpec spec = host::parse_method(options.method);
@@ -148,9 +150,10 @@ void add_solve(CLI::App& app, const Common& common) {
                     ->check(CLI::Range(1, 1 << 30));
   command
       ->add_option("--error", options->error,
-                   "Stop at this relative rms error of B against the converged solution of the "
-                   "same factors; 0.01 = 1 %")
+                   "Stop at this relative rms error of B, without what patches emit themselves, "
+                   "against the converged solution of the same factors")
       ->check(CLI::Range(1e-7, 1.0))
+      ->capture_default_str()
       ->excludes(shots);
   command
       ->add_option(

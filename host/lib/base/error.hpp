@@ -6,9 +6,11 @@
 namespace host {
 
 /// Values are quoted as they were read: what would break the line or the terminal is written as an
-/// escape.
-inline std::string one_line(const std::string& text) {
+/// escape, and of what is longer than any sentence the middle is left out.
+inline std::string one_line(std::string text) {
   constexpr char kDigits[] = "0123456789abcdef";
+  constexpr std::size_t kMost = 1000, kKept = 450;
+  if (text.size() > kMost) text.replace(kKept, text.size() - 2 * kKept, " ... ");
   std::string line;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);

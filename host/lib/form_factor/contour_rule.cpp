@@ -1,10 +1,12 @@
 #include "form_factor/contour_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "form_factor/facing.hpp"
 #include "form_factor/area_rule.hpp"
+#include "form_factor/facing.hpp"
 
 namespace host {
 namespace {
@@ -22,10 +24,22 @@ void add_loop(const Loop& loop, std::span<const GaussPoint> rule,
   }
 }
 
+/// Twice the area along the normal [Newell].
+Vec3 area_vector(const Loop& loop) {
+  Vec3 sum(0);
+  for (std::size_t k = 2; k < loop.size(); ++k)
+    sum += glm::cross(loop[k - 1] - loop[0], loop[k] - loop[0]);
+  return sum;
+}
+
 std::vector<ContourPoint> contour_points(const Polygon& polygon, int n) {
   std::vector<ContourPoint> points;
   add_loop(polygon.outer, gauss_rule(n), &points);
-  for (const Loop& hole : polygon.holes) add_loop(hole, gauss_rule(n), &points);
+  const Vec3 normal = area_vector(polygon.outer);
+  for (Loop hole : polygon.holes) {  // against the outer loop, whichever way it was written
+    if (glm::dot(area_vector(hole), normal) > 0) std::reverse(hole.begin(), hole.end());
+    add_loop(hole, gauss_rule(n), &points);
+  }
   return points;
 }
 
@@ -41,7 +55,9 @@ Estimate contour_estimate(const Polygon& p, const Polygon& q, int n) {
       const Vec3 r = b.x - a.x;
       sum += 0.5 * std::log(glm::dot(r, r)) * glm::dot(a.step, b.step);
     }
-  return {sum / (2 * std::numbers::pi * moments(p).area)};
+  const double f = sum / (2 * std::numbers::pi * moments(p).area);
+  // Points that coincide on a shared edge have no logarithm; a rule may also pass what is possible.
+  return {std::isfinite(f) ? std::clamp(f, 0.0, 1.0) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 }  // namespace host

@@ -165,8 +165,12 @@ const std::map<std::string, Maker>& host_methods() {
       {"contour",
        [](const MethodSpec& spec) {
          const int n = spec.number(2, 1, kMostPoints);
-         return exact([n](const Polygon& p, const Polygon& q) { return contour_estimate(p, q, n); },
-                      false);
+         const auto run = [n](const Polygon& p, const Polygon& q) {
+           const Estimate estimate = contour_estimate(p, q, n);
+           return std::isfinite(estimate.f) ? PairResult{estimate}
+                                            : PairResult{{}, "unsupported_touching"};
+         };
+         return FreePairMethod{run, false};
        }},
       {"monte-carlo",
        [](const MethodSpec& spec) {

@@ -5,6 +5,10 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -23,21 +27,41 @@ struct LibraryMaterial {
 };
 using Library = std::map<std::string, LibraryMaterial>;
 
+/// The files that mtllib names: one, whose name may hold blanks, or several.
+std::vector<std::pair<std::string, std::string>> texts_of(
+    const std::string& names, const std::function<std::string(const std::string&)>& read) {
+  try {
+    return {{names, read(names)}};
+  } catch (const Error&) {
+    std::istringstream words(names);
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (std::string name; words >> name;) {
+      if (name == names) throw;  // a single one
+      texts.emplace_back(name, read(name));
+    }
+    return texts;
+  }
+}
+
 Library read_libraries(const ObjLines& obj, const std::string& file,
                        const std::function<std::string(const std::string&)>& read) {
   Library library;
-  for (const auto& [name, line] : obj.libraries) {
-    std::string text;
+  std::set<std::string> seen;  // joined files name theirs again
+  for (const auto& [names, line] : obj.libraries) {
+    std::vector<std::pair<std::string, std::string>> texts;
     try {
-      text = read(name);
+      texts = texts_of(names, read);
     } catch (const Error& error) {
       throw Error(fmt::format("{}:{}: mtllib: {}", file, line, error.what()));
     }
-    for (const auto& [material, lines] : index_mtl(plain_lines(text), name)) {
-      const auto [other, fresh] = library.emplace(material, LibraryMaterial{name, lines});
-      if (!fresh)
-        throw Error(fmt::format("{}:{}: material '{}' stands in {}:{} already", name, lines.line,
-                                material, other->second.file, other->second.lines.line));
+    for (const auto& [name, text] : texts) {
+      if (!seen.insert(name).second) continue;
+      for (const auto& [material, lines] : index_mtl(plain_lines(text), name)) {
+        const auto [other, fresh] = library.emplace(material, LibraryMaterial{name, lines});
+        if (!fresh)
+          throw Error(fmt::format("{}:{}: material '{}' stands in {}:{} already", name, lines.line,
+                                  material, other->second.file, other->second.lines.line));
+      }
     }
   }
   return library;

@@ -185,6 +185,7 @@ ObjLines index_obj(std::string_view text, const std::string& file) {
   ObjLines found;
   std::set<std::string> used;
   std::string material;
+  std::size_t material_line = 0;
   std::array<int, 2> counts{1, 1};
   each_line(text, [&](std::size_t line, std::string_view content) {
     const auto words = words_of(content);
@@ -197,10 +198,11 @@ ObjLines index_obj(std::string_view text, const std::string& file) {
         fail(file, line, "a face without material: put 'usemtl NAME' before it");
       for (std::size_t k = 1; k < words.size(); ++k) check_corner(words[k], file, line);
       found.faces.push_back({line, material, counts});
+      if (used.insert(material).second) found.material_uses.emplace_back(material, material_line);
     } else if (words[0] == "usemtl") {
       material = rest_of(content, words[0]);
       if (material.empty()) fail(file, line, "usemtl without a name");
-      if (used.insert(material).second) found.material_uses.emplace_back(material, line);
+      material_line = line;
     } else if (words[0] == "mtllib") {
       const std::string library = rest_of(content, words[0]);
       if (library.empty()) fail(file, line, "mtllib without a file name");

@@ -28,15 +28,22 @@ Eigen::MatrixXd matrix(const EngineRows& rows) {
   return f;
 }
 
+/// Whether the engine divides a row by its sum: one above 1 in an open scene, one off by little in a
+/// closed one (radiosity.cpp, judge_row()).
+bool is_divided(const Scene& scene, double row_sum) {
+  return scene.closed ? std::fabs(row_sum - 1) <= 1.0 / 256 : row_sum > 1;
+}
+
 /// What shooting with these rows converges to: j gains A_i F_ij / A_j of i's radiosity, whether the
 /// rows are reciprocal or not (those of a hemicube are not).
 Eigen::MatrixXd gathered(const Scene& scene, const EngineRows& rows) {
   Eigen::MatrixXd f = matrix(rows).transpose();
-  for (Eigen::Index j = 0; j < f.rows(); ++j) {
-    for (Eigen::Index i = 0; i < f.cols(); ++i) {
+  for (Eigen::Index i = 0; i < f.cols(); ++i) {
+    const double sum = f.col(i).sum();
+    if (is_divided(scene, sum)) f.col(i) /= sum;
+    for (Eigen::Index j = 0; j < f.rows(); ++j)
       f(j, i) *=
           scene.patches[std::size_t(i)].moments.area / scene.patches[std::size_t(j)].moments.area;
-    }
   }
   return f;
 }
