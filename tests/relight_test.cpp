@@ -88,8 +88,8 @@ TEST_CASE("cube7: a strip of light moves by a column, a red wall turns green") {
     REQUIRE(shots_to(&light, 1e-3) < 5000);
   }
   MESSAGE("strip: back to 2 % in " << inner << " shots at most, " << outer << " at the edges");
-  CHECK(inner <= 130);
-  CHECK(outer <= 170);
+  CHECK(inner <= 100);
+  CHECK(outer <= 130);
   CHECK(urad::radiosity_audit(light.state(), nullptr));
 
   host::Relighting wall(cube.scene, cube.rows, true);

@@ -2,6 +2,7 @@
 
 #include "radiosity_beam.hpp"
 #include "radiosity_power.hpp"
+#include "radiosity_two_ways.hpp"
 #include "urad/patch.hpp"
 
 namespace urad {
@@ -50,11 +51,12 @@ template <Wanted kWanted>
 
 /// Finds the next shooter and the sum of |unshot|. A patch that has overshot waits with unshot
 /// power of the other sign for what comes back: it is no candidate as long as the sum over the
-/// scene keeps its sign.
+/// scene keeps its sign. After a change that goes two ways debts are small beside what is left, and
+/// the largest goes first.
 void survey(Radiosity* s) noexcept {
   uint32_t most = 0;
   const int64_t all = s->ledger.unshot[0] + s->ledger.unshot[1] + s->ledger.unshot[2];
-  if (!(s->flags & URAD_OVERSHOOT)) {
+  if (!(s->flags & URAD_OVERSHOOT) || mostly_nearby(*s)) {
     s->remaining = survey_parts<Wanted::any>(s, &most);
   } else {
     const uint64_t parts = all >= 0 ? survey_parts<Wanted::positive>(s, &most)
@@ -87,6 +89,7 @@ void survey(Radiosity* s) noexcept {
   const uint32_t rho_uq16 = effective_reflectance_uq16(s, channel);
   const uint32_t own_uq16 = uint32_t((uint64_t{rho_uq16} * exp2_uq(log2_share_q24, 16)) >> 16);
   uint32_t gain = gain_uq16(rho_uq16 > own_uq16 ? rho_uq16 - own_uq16 : 0);
+  if (s.flags & kTwoWays) gain = two_ways_gain_uq16(s, gain);
   if (gain > kOvershootMost_uq16) gain = kOvershootMost_uq16;
   const uint64_t ambient = (all * gain) >> 16;
   if (ambient >> 40) return unshot;
@@ -217,8 +220,12 @@ Status radiosity_step(Radiosity* s) noexcept {
   if (s->status != URAD_OK) return Status(s->status);
   if (s->flags & kMoving) return Status::bad_argument;
   if (s->flags & kStale) {
-    s->flags = uint8_t(s->flags & ~kStale);
+    s->flags = uint8_t(s->flags & ~(kStale | kTwoWays));
     survey(s);
+    if ((s->flags & URAD_OVERSHOOT) && s->remaining / 2 > one_way(*s)) {
+      s->flags |= kTwoWays;
+      survey(s);
+    }
   }
   const bool empty = s->remaining == 0;
   s->counters.shots_empty += empty;

@@ -30,6 +30,8 @@ void measure_scene(urad_radiosity* state) noexcept;
 
 /// In urad_radiosity.flags: `shooter` is out of date.
 inline constexpr uint8_t kStale = 128;
+/// The same: what changed last made as much darker as brighter.
+inline constexpr uint8_t kTwoWays = 32;
 /// The same: light between touched patches is taken away, radiosity_move_end() is to follow.
 inline constexpr uint8_t kMoving = 64;
 
