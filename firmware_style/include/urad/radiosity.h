@@ -67,7 +67,7 @@ typedef struct urad_radiosity {
   uint16_t shooter;             /* the next one */
   uint16_t window_shots;        /* shots since the divergence guard looked */
   uint8_t window_strikes;       /* times in a row it found too little progress */
-  uint8_t flags;                /* URAD_OVERSHOOT, URAD_SKIP_OFF_*; 128: look for the shooter again */
+  uint8_t flags;                /* URAD_OVERSHOOT, URAD_SKIP_OFF_*; 32 and more: the solver's own */
   uint8_t status;               /* urad_status; once not URAD_OK, it stays */
   uint64_t remaining;           /* sum of |unshot| over patches and channels */
   uint64_t window_remaining;    /* the same when the guard looked last */
