@@ -63,10 +63,14 @@ void try_general(const GeneralNet& net, const SceneDataset& dataset, SceneSolver
   GeneralTrial trial;
   trial.origin = net.origin;
   trial.cube7 = measure_scene(cube7.scene(), dataset, {method}).front().row.errors;
-  for (const char* part : {"train", "held_out"}) {
+  const auto take = [&](const char* part, std::optional<ErrorRow>* into) {
     const ErrorRow* row = net.file ? net.file->error(part) : nullptr;
-    if (row) (part[0] == 't' ? trial.train : trial.held_out) = *row;
-  }
+    if (row) *into = *row;
+  };
+  take("train", &trial.train);
+  take("held_out", &trial.held_out);
+  take("int16", &trial.int16);
+  take("int8", &trial.int8);
   trial.near_hybrid = light_by_near_hybrid(cube7, *net.pod, kNearHemicube);
   results->general.push_back(trial);
 }

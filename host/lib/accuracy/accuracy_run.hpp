@@ -36,6 +36,7 @@ struct GeneralTrial {
   std::string origin;  ///< "seed 3" or "shipped"
   ErrorRow cube7;
   std::optional<ErrorRow> train, held_out;
+  std::optional<ErrorRow> int16, int8;  ///< random pairs, none trained on
   double near_hybrid = 0;  ///< light of cube7 by hemicube:32 and this net, see AccuracyResults
 };
 

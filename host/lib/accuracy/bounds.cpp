@@ -16,6 +16,7 @@ namespace {
 constexpr double kExact = 1e-12;
 constexpr double kHybridPlates = 1e-2, kRayPlates = 3e-3;
 constexpr double kOwnStd = 3e-5, kOwnRow = 0.003, kGeneralStd = 6e-4, kHemicubeStd = 8e-4;
+constexpr double kNarrowLoss = 0.03;
 constexpr double kNetLight = 0.003, kNearLight = 0.01, kCornellLight = 0.03, kChipLight = 0.01;
 constexpr double kLargestOfCube = 0.200043776075403, kSmallestOfCube = 6.08e-5;
 constexpr std::size_t kChipRam = 16 * 1024, kChipFlash = 256 * 1024;
@@ -115,6 +116,30 @@ void add_cube_factors(const AccuracyResults& r, List* list) {
                    fmt::format("{:.2e}; {} of {} rows exact to the last unit of 2^-32",
                                cube.factors.std, cube.exact_rows, cube.rows),
                    cube.factors.std <= kHemicubeStd && cube.exact_rows == cube.rows});
+}
+
+/// What 8 bits a weight cost a general network; 16 bits follow the double to less than a hundredth
+/// of a percent (docs/NETWORKS.md).
+void add_narrow(const AccuracyResults& r, List* list) {
+  double worst = -1;
+  std::string which;
+  for (const GeneralTrial& t : r.general) {
+    if (!t.int16 || !t.int8) return;
+    const struct {
+      const char* name;
+      double ErrorRow::*value;
+    } statistics[] = {{"median", &ErrorRow::median},
+                      {"p95", &ErrorRow::p95},
+                      {"p99", &ErrorRow::p99},
+                      {"std", &ErrorRow::std}};
+    for (const auto& s : statistics) {
+      const double loss = (*t.int8).*s.value / ((*t.int16).*s.value) - 1;
+      if (loss > worst) worst = loss, which = fmt::format("{}, {}", s.name, t.origin);
+    }
+  }
+  list->push_back({"general network, int8 by int16: median, p95, p99, std of random pairs",
+                   "<= 3 % worse", fmt::format("{} ({})", fine_percent(worst), which),
+                   worst <= kNarrowLoss});
 }
 
 /// What auto:0.01 promises, on pairs that none of its constants was fitted to.
@@ -220,6 +245,7 @@ std::vector<Bound> bounds(const AccuracyResults& results) {
   add_occluded("square obstruction, in a corner and in the middle", results.squares, &list);
   add_occluded(fmt::format("L-room, {} factors", results.l_room.size()), results.l_room, &list);
   add_cube_factors(results, &list);
+  add_narrow(results, &list);
   add_auto(results, &list);
   add_light(results, &list);
   add_chip(results, &list);
