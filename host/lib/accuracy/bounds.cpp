@@ -118,8 +118,7 @@ void add_cube_factors(const AccuracyResults& r, List* list) {
                    cube.factors.std <= kHemicubeStd && cube.exact_rows == cube.rows});
 }
 
-/// What 8 bits a weight cost a general network; 16 bits follow the double to less than a hundredth
-/// of a percent (docs/NETWORKS.md).
+/// What 8 bits a weight cost a general network. By the network in double: docs/NETWORKS.md.
 void add_narrow(const AccuracyResults& r, List* list) {
   double worst = -1;
   std::string which;
