@@ -10,6 +10,7 @@
 #include "hand_made_scene.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/hemicube_table.hpp"
+#include "urad/hybrid.hpp"
 #include "urad/urad.h"
 #include "weights/cube7.h"
 
@@ -141,6 +142,77 @@ TEST_CASE("a source's own function refuses null, and runs that are none") {
   CHECK(fill(0, 1, 10, 9) == URAD_BAD_ARGUMENT);
   CHECK(room.source.fill(nullptr, 0, 1, 9, 9, f) == URAD_BAD_ARGUMENT);
   CHECK(room.source.fill(room.source.context, 0, 1, 9, 9, nullptr) == URAD_BAD_ARGUMENT);
+}
+
+TEST_CASE("hemicubes and hybrids refuse null, runs that are none, and rows that are not kept") {
+  Room room;
+  std::vector<std::uint64_t> more(64);
+  std::uint32_t f[9] = {};
+  urad_source hybrid{};
+  const auto hemicube = [&](std::uint16_t rows, unsigned flags) {
+    REQUIRE(urad_hemicube_source_init(&room.source, room.scene, &room.table, rows, flags,
+                                      &room.counters, room.memory.data(), room.bytes) == URAD_OK);
+  };
+  const auto refuses_what_is_none = [&](const urad_source& source) {
+    CHECK(source.fill(source.context, 0, 1, 9, 9, f) == URAD_OK);
+    CHECK(source.fill(nullptr, 0, 1, 9, 9, f) == URAD_BAD_ARGUMENT);
+    CHECK(source.fill(source.context, 0, 1, 9, 9, nullptr) == URAD_BAD_ARGUMENT);
+    CHECK(source.fill(source.context, 54, 1, 9, 9, f) == URAD_BAD_ARGUMENT);
+    CHECK(source.fill(source.context, 0, 6, 9, 9, f) == URAD_BAD_ARGUMENT);
+    CHECK(source.fill(source.context, 0, 1, 8, 9, f) == URAD_BAD_ARGUMENT);
+    CHECK(source.fill(source.context, 0, 1, 10, 9, f) == URAD_BAD_ARGUMENT);
+  };
+  hemicube(4, URAD_HEMICUBE_COVERAGE);
+  refuses_what_is_none(room.source);
+  void* const memory = more.data();
+  const std::size_t bytes = more.size() * 8;
+  NULL_IN_TURN(urad_hybrid_source_init, URAD_BAD_ARGUMENT, (Optional{3}), &hybrid,
+               static_cast<const urad_source*>(&room.source), 1, &urad_cube7, 16, 0, memory, bytes);
+  const auto init = [&](const urad_source& cells, unsigned kernel, std::uint16_t rays,
+                        std::size_t room_for) {
+    return urad_hybrid_source_init(&hybrid, &cells, kernel, &urad_cube7, rays, 0, memory, room_for);
+  };
+  CHECK(init({nullptr, room.source.context}, 1, 16, bytes) == URAD_BAD_ARGUMENT);
+  CHECK(init(room.source, 2, 16, bytes) == URAD_BAD_ARGUMENT);
+  CHECK(init(room.source, 1, 0, bytes) == URAD_BAD_ARGUMENT);
+  CHECK(init(room.source, 1, URAD_RAYS_MAX + 1, bytes) == URAD_BAD_ARGUMENT);
+  CHECK(init(room.source, 1, 16, urad_hybrid_source_bytes() - 1) == URAD_OUT_OF_MEMORY);
+  CHECK(init(room.source, 1, 16, bytes) == URAD_OK);
+  refuses_what_is_none(hybrid);
+  // Of near pairs alone, a hybrid is a hemicube with a row changed.
+  REQUIRE(urad_hybrid_source_init(&hybrid, &room.source, 1, &urad_cube7, 16, 65536 / 27, memory,
+                                  bytes) == URAD_OK);
+  refuses_what_is_none(hybrid);
+}
+
+TEST_CASE("an item buffer that is kept for no row, and cells outside of it, are refused") {
+  Room room;
+  urad::HemicubeSource cells{};
+  const urad::HemicubeTable table{16, room.top.data(), room.side.data()};
+  const auto init = [&](urad::HemicubeSource* source, const urad_scene* scene, std::uint16_t rows,
+                        urad_counters* counters) {
+    return urad::hemicube_init(source, scene, table, rows, 0, room.memory.data(), room.bytes,
+                               counters);
+  };
+  using urad::Status;
+  CHECK(init(nullptr, room.scene, 4, &room.counters) == Status::bad_argument);
+  CHECK(init(&cells, nullptr, 4, &room.counters) == Status::bad_argument);
+  CHECK(init(&cells, room.scene, 4, nullptr) == Status::bad_argument);
+  REQUIRE(init(&cells, room.scene, 0, &room.counters) == Status::ok);
+  CHECK(urad::hemicube_items(&cells, 0, 0, 0) == Status::bad_argument);
+  REQUIRE(init(&cells, room.scene, 4, &room.counters) == Status::ok);
+  CHECK(urad::hemicube_items(nullptr, 0, 0, 0) == Status::bad_argument);
+  CHECK(urad::hemicube_items(&cells, 54, 0, 0) == Status::bad_argument);
+  CHECK(urad::hemicube_items(&cells, 0, -1, 0) == Status::bad_argument);
+  CHECK(urad::hemicube_items(&cells, 0, 5, 0) == Status::bad_argument);
+  CHECK(urad::hemicube_items(&cells, 0, 0, 16) == Status::bad_argument);
+  CHECK(urad::hemicube_items(&cells, 0, 4, 14) == Status::ok);  // a band that the face ends
+  CHECK(urad::hemicube_render(nullptr, 0) == Status::bad_argument);
+  urad::HybridSource hybrid{};
+  CHECK(urad::hybrid_init(nullptr, &cells, urad::Kernel::moment, nullptr, 16, 0) ==
+        Status::bad_argument);
+  CHECK(urad::hybrid_init(&hybrid, nullptr, urad::Kernel::moment, nullptr, 16, 0) ==
+        Status::bad_argument);
 }
 
 TEST_CASE("null arguments of the solver and of light that changes") {
