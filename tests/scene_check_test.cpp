@@ -1,6 +1,7 @@
 // Every field of a scene and of a pose table, one at a time out of its range: refused.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -33,22 +34,14 @@ struct Plain {
                                       {{{{0.2, 0.2, 0.5}, {0.8, 0.2, 0.5}, {0.5, 0.8, 0.5}}, {}}});
     const urad_scene& made = fixed.pod();
     REQUIRE(urad_grid_make({0, 0, 0}, {1 << 20, 0, 0}, {0, 1 << 20, 0}, 1, 1, &grid) == URAD_OK);
-    std::uint32_t at = 0;
-    const auto take = [&](std::uint32_t first, std::uint16_t count) {
-      const std::uint32_t start = at;
-      for (std::uint32_t k = 0; k < count; ++k) vertex[at++] = made.vertex[first + k];
-      return start;
-    };
-    blocker = made.blocker[0];
-    blocker.first_vertex = take(blocker.first_vertex, 3);
-    blocker.surface = 0xFFFF;
     // Loops are looked up, not compared with shapes: both triangles may share one.
-    for (int k = 0; k < 2; ++k) {
-      polygon[k] = made.surface[1 + k].polygon[0];
-      const std::uint32_t loop =
-          k == 0 ? take(polygon[k].first_vertex, 3) : polygon[0].first_vertex;
-      polygon[k].first_vertex = loop;
-    }
+    for (int k = 0; k < 2; ++k) polygon[k] = made.surface[1 + k].polygon[0];
+    blocker = made.blocker[0];
+    std::copy_n(made.vertex + blocker.first_vertex, 3, vertex);
+    std::copy_n(made.vertex + polygon[0].first_vertex, 3, vertex + 3);
+    polygon[0].first_vertex = polygon[1].first_vertex = 3;
+    blocker.first_vertex = 0;
+    blocker.surface = 0xFFFF;
     vertex[6] = vertex[5];
     surface[0] = {0, 1, 0, URAD_SURFACE_PLANAR, &grid, nullptr};
     surface[1] = {1, 2, 0, URAD_SURFACE_PLANAR, nullptr, polygon};
