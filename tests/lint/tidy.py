@@ -48,6 +48,17 @@ class Unit:
             return f"{file}:{number}"
         return re.sub(rf"^{re.escape(str(self.path))}:(\d+)", place, text, flags=re.M)
 
+    def apart(self, files: list[str]) -> list[str]:
+        """Which of the files must leave for the rest to compile, as far as the compiler blames them."""
+        text = self.path.read_bytes()
+        kept = self.path.with_name(hashlib.sha256(text + " ".join(self.options).encode()).hexdigest() + ".json")
+        if not kept.exists():
+            tried = self.compile("-fsyntax-only", "-ferror-limit=0")
+            wrong = self.at_home(tried.stderr)
+            blamed = [f for f in files[1:] if re.search(rf"^{re.escape(f)}:\d+:\d+: (?:fatal )?error", wrong, re.M)]
+            kept.write_text(json.dumps([] if tried.returncode == 0 else blamed or files[1:]))
+        return json.loads(kept.read_text())
+
     def findings(self) -> str:
         preprocessed = self.compile("-E", "-C").stdout
         analyzed = ["--checks=clang-analyzer-*"] if "-ffreestanding" in self.options else []
@@ -73,13 +84,9 @@ def units(work: Path, commands: list[dict]) -> list[Unit]:
         while left:
             taken, left = left[:MOST], left[MOST:]
             while len(taken) > 1:
-                unit = Unit(work, options, taken)
-                tried = unit.compile("-fsyntax-only", "-ferror-limit=0")
-                if tried.returncode == 0:
+                blamed = Unit(work, options, taken).apart(taken)
+                if not blamed:
                     break
-                wrong = unit.at_home(tried.stderr)
-                blamed = [f for f in taken[1:] if re.search(rf"^{re.escape(f)}:\d+:\d+: (?:fatal )?error", wrong, re.M)]
-                blamed = blamed or taken[1:]
                 left = blamed + left
                 taken = [f for f in taken if f not in blamed]
             made.append(Unit(work, options, taken))

@@ -22,7 +22,10 @@ void for_each_edge(const Scene& scene, Visit&& visit) {
     const int w = surface.grid->count_u, h = surface.grid->count_v;
     for (int v = 0; v < h; ++v)
       for (int u = 0; u < w; ++u) {
-        const auto at = [&](int x, int y) { return std::size_t(surface.first_patch + y * w + x); };
+        const auto at = [&](int x, int y) {
+          const int patch = surface.first_patch + y * w + x;
+          return std::size_t(patch);
+        };
         if (u + 1 < w) visit(at(u, v), at(u + 1, v));
         if (v + 1 < h) visit(at(u, v), at(u, v + 1));
       }

@@ -31,7 +31,8 @@ Scene plates(const std::string& name, int n, const std::vector<Polygon>& between
     surface.first_patch = int(scene.patches.size());
     surface.patch_count = n * n;
     for (int k = 0; k < n * n; ++k) {
-      const double x = double(k % n) / n, y = double(k / n) / n, w = 1.0 / n, z = side;
+      const int column = k % n, row = k / n;
+      const double x = double(column) / n, y = double(row) / n, w = 1.0 / n, z = side;
       Polygon quad{{{x, y, z}, {x + w, y, z}, {x + w, y + w, z}, {x, y + w, z}}, {}};
       if (side) std::swap(quad.outer[1], quad.outer[3]);
       scene.patches.push_back({quad, moments(quad), side});
@@ -48,6 +49,7 @@ Polygon upright(double x0, double x1, double y0, double y1, double z) {
 
 std::vector<Polygon> slats() {
   std::vector<Polygon> all;
+  all.reserve(5);
   for (int k = 0; k < 5; ++k) all.push_back(upright(0.2 * k + 0.03, 0.2 * k + 0.13, 0, 1, 0.4));
   return all;
 }
@@ -100,8 +102,8 @@ class AllOrNothing {
       const bool cut_p = p.area() >= q.area();
       const Piece& whole = cut_p ? p : q;
       for (int k = 0; k < 4; ++k) {
-        const Piece part{whole.at(0.5 * (k % 2), 0.5 * double(k / 2)), 0.5 * whole.u,
-                         0.5 * whole.v};
+        const int column = k % 2, row = k / 2;
+        const Piece part{whole.at(0.5 * column, 0.5 * row), 0.5 * whole.u, 0.5 * whole.v};
         const Sum inner = cut_p ? visit(part, q, depth - 1) : visit(p, part, depth - 1);
         sum.seen += inner.seen, sum.whole += inner.whole;
       }
@@ -167,6 +169,7 @@ ResultTable experiment_visibility(const ExperimentRequest& request) {
       int halves = 0;
       const Stopwatch time;
       std::vector<double> seen;
+      seen.reserve(pairs.size());
       for (const Pair& pair : pairs) seen.push_back(fraction(pair));
       const double us = 1e6 / double(pairs.size()) * time.seconds();
       for (std::size_t k = 0; k < pairs.size(); ++k) {

@@ -55,8 +55,10 @@ double LegacyNet::hidden_range() const {
   double range = 0;
   for (int h = 0; h < hidden; ++h) {
     double sum = std::fabs(double(hidden_bias[std::size_t(h)]));
-    for (int n = 0; n < kLegacyInputs; ++n)
-      sum += std::fabs(double(hidden_weight[std::size_t(h * kLegacyInputs + n)]));
+    for (int n = 0; n < kLegacyInputs; ++n) {
+      const int at = h * kLegacyInputs + n;
+      sum += std::fabs(double(hidden_weight[std::size_t(at)]));
+    }
     range = std::max(range, sum);
   }
   return range;

@@ -118,7 +118,7 @@ std::vector<ResultTable> reproduce_operations(const ReproduceRequest& request,
   });
   table.rows.push_back(
       {"analytic (this project's reference)", "not given",
-       fmt::format("{} contour integrals, one for both directions", metric(double(72030 / 2))),
+       fmt::format("{} contour integrals, one for both directions", metric(72030 / 2.0)),
        short_number(analytic)});
   table.notes = {
       "The report counts a sum a cell; cells of a row that show one patch are summed in one "

@@ -54,6 +54,7 @@ void run_hemicube(std::vector<Measured>* all, int threads) {
 
 LegacyNetFile train_on(const std::vector<Measured>& all, const ReproduceRequest& request) {
   std::vector<LegacySample> samples;
+  samples.reserve(all.size());
   for (const Measured& m : all)
     samples.push_back({legacy_input(m.pair.p, m.pair.q),
                        float(legacy_scaled(LegacyScaling::linear, m.pair.exact))});

@@ -68,7 +68,7 @@ Estimate cheapest(const urad_scene& scene, std::uint16_t shooter, const urad_net
 
 /// The pair as a scene of two surfaces, and one factor of its row: integers all the way.
 FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
-  EngineSource(
+  EngineSource(  // NOLINT(bugprone-unused-raii): only whether it throws is asked
       FixedScene::of_polygons(
           {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}}, {}),
       spec, nets, {});  // refuses a bad setting before the first pair
