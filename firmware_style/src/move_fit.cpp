@@ -4,22 +4,6 @@
 
 namespace urad {
 
-namespace {
-
-void stretch(const urad_point& p, const urad_point& q, urad_point* low, urad_point* high) noexcept {
-  *low = {least(low->x, p.x), least(low->y, p.y), least(low->z, p.z)};
-  *high = {greatest(high->x, q.x), greatest(high->y, q.y), greatest(high->z, q.z)};
-}
-
-urad_point corner_of(const urad_grid& grid, int k) noexcept {
-  const int32_t u = k == 1 || k == 2 ? grid.count_u : 0, v = k >= 2 ? grid.count_v : 0;
-  return {grid.origin.x + u * grid.step_u.x + v * grid.step_v.x,
-          grid.origin.y + u * grid.step_u.y + v * grid.step_v.y,
-          grid.origin.z + u * grid.step_u.z + v * grid.step_v.z};
-}
-
-}  // namespace
-
 void blocker_make(const urad_grid& grid, urad_point* vertex, urad_blocker* blocker) noexcept {
   blocker->normal_q30 = grid.shape.normal_q30;
   blocker->vertex_count = 4;

@@ -36,8 +36,7 @@ CoarseBox around(const urad_scene& scene, const Patch& patch) noexcept {
   urad_point low = patch_vertex(scene, patch, 0), high = low;
   for (uint16_t k = 1; k < patch.vertex_count; ++k) {
     const urad_point p = patch_vertex(scene, patch, k);
-    low = {least(low.x, p.x), least(low.y, p.y), least(low.z, p.z)};
-    high = {greatest(high.x, p.x), greatest(high.y, p.y), greatest(high.z, p.z)};
+    stretch(p, p, &low, &high);
   }
   return coarse_box(low, high);
 }

@@ -10,6 +10,21 @@ inline constexpr int32_t kOutline = 2;
 constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a < b ? b : a; }
 
+/// Makes the box of *low and *high hold that of `from` and `to`.
+inline void stretch(const urad_point& from, const urad_point& to, urad_point* low,
+                    urad_point* high) noexcept {
+  *low = {least(low->x, from.x), least(low->y, from.y), least(low->z, from.z)};
+  *high = {greatest(high->x, to.x), greatest(high->y, to.y), greatest(high->z, to.z)};
+}
+
+/// Corner of a whole grid, in the order of those of a patch.
+inline urad_point corner_of(const urad_grid& grid, int k) noexcept {
+  const int32_t u = k == 1 || k == 2 ? grid.count_u : 0, v = k >= 2 ? grid.count_v : 0;
+  return {grid.origin.x + u * grid.step_u.x + v * grid.step_v.x,
+          grid.origin.y + u * grid.step_u.y + v * grid.step_v.y,
+          grid.origin.z + u * grid.step_u.z + v * grid.step_v.z};
+}
+
 constexpr bool apart(int32_t a, int32_t b, int32_t low, int32_t high, int32_t slack) noexcept {
   return greatest(a, b) < low - slack || least(a, b) > high + slack;
 }

@@ -31,12 +31,6 @@ Shadow shadow_between(const urad_scene& scene, uint16_t blocker, const View& vie
                 view.from_receiver ? from : to);
 }
 
-void stretch(const Reach& by, urad_point* low, urad_point* high) noexcept {
-  *low = {least(low->x, by.low.x), least(low->y, by.low.y), least(low->z, by.low.z)};
-  *high = {greatest(high->x, by.high.x), greatest(high->y, by.high.y),
-           greatest(high->z, by.high.z)};
-}
-
 }  // namespace
 
 RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const urad_grid* run,
@@ -50,7 +44,7 @@ RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const ur
   if (!reject || !run) return;
   const Reach to = reach_of(*run);
   urad_point low = reach_.low, high = reach_.high;
-  stretch(to, &low, &high);
+  stretch(to.low, to.high, &low, &high);
   const auto missed = [&](const urad_point& box_low, const urad_point& box_high) {
     return boxes_apart(low, high, box_low, box_high);
   };
@@ -82,7 +76,7 @@ Candidates::Candidates(RunBlockers& run, const Patch& receiver) noexcept
   const urad_scene& scene = run.scene_;
   const Reach to = reach_of(scene, receiver);
   urad_point low = run.reach_.low, high = run.reach_.high;
-  stretch(to, &low, &high);
+  stretch(to.low, to.high, &low, &high);
   const auto missed = [&](const urad_point& box_low, const urad_point& box_high) {
     return run.reject_ && boxes_apart(low, high, box_low, box_high);
   };

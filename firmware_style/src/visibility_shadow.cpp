@@ -9,19 +9,7 @@ namespace {
 
 constexpr int kCoarse = 16;  // bits dropped: |coordinate| <= 2^13
 
-/// Corner of a whole grid, in the order of those of a patch.
-urad_point corner_of(const urad_grid& grid, int k) noexcept {
-  const int32_t u = k == 1 || k == 2 ? grid.count_u : 0, v = k >= 2 ? grid.count_v : 0;
-  return {grid.origin.x + u * grid.step_u.x + v * grid.step_v.x,
-          grid.origin.y + u * grid.step_u.y + v * grid.step_v.y,
-          grid.origin.z + u * grid.step_u.z + v * grid.step_v.z};
-}
-
-void add(const urad_point& p, Reach* reach) noexcept {
-  urad_point &low = reach->low, &high = reach->high;
-  low = {least(low.x, p.x), least(low.y, p.y), least(low.z, p.z)};
-  high = {greatest(high.x, p.x), greatest(high.y, p.y), greatest(high.z, p.z)};
-}
+void add(const urad_point& p, Reach* reach) noexcept { stretch(p, p, &reach->low, &reach->high); }
 
 void add(int32_t distance, PlaneSide* side) noexcept {
   side->front = side->front || distance > kPlaneTolerance;

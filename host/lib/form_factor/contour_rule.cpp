@@ -24,22 +24,9 @@ void add_loop(const Loop& loop, std::span<const GaussPoint> rule,
   }
 }
 
-/// Twice the area along the normal [Newell].
-Vec3 area_vector(const Loop& loop) {
-  Vec3 sum(0);
-  for (std::size_t k = 2; k < loop.size(); ++k)
-    sum += glm::cross(loop[k - 1] - loop[0], loop[k] - loop[0]);
-  return sum;
-}
-
 std::vector<ContourPoint> contour_points(const Polygon& polygon, int n) {
   std::vector<ContourPoint> points;
-  add_loop(polygon.outer, gauss_rule(n), &points);
-  const Vec3 normal = area_vector(polygon.outer);
-  for (Loop hole : polygon.holes) {  // against the outer loop, whichever way it was written
-    if (glm::dot(area_vector(hole), normal) > 0) std::reverse(hole.begin(), hole.end());
-    add_loop(hole, gauss_rule(n), &points);
-  }
+  for (const Loop& loop : boundary(polygon)) add_loop(loop, gauss_rule(n), &points);
   return points;
 }
 
