@@ -3,7 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <vector>
@@ -141,9 +144,27 @@ TEST_CASE("random nets that pass the check stay in range on extreme inputs") {
     for (const int value : {-32767, 0, 32767}) {
       std::vector<std::int16_t> input(own.net.inputs, std::int16_t(value));
       const std::int32_t y_q16 = urad::network_run(own.net, input.data());
-      CHECK(y_q16 >= -(1 << 20));
-      CHECK(y_q16 <= 1 << 20);
+      for (const int gate_uq16 : {0, 1, 3473, 65535})
+        CHECK(std::abs(urad::word_q24(y_q16, std::uint16_t(gate_uq16))) <= urad::kMostWord << 24);
     }
   }
   CHECK(passed > 1000);
+}
+
+TEST_CASE("a word that the gate leaves little of is not cut before the gate") {
+  std::mt19937 random(kSeed + 2);
+  MESSAGE("seed ", kSeed + 2);
+  std::uniform_int_distribution<std::int32_t> word(-(1 << 30), 1 << 30), gate(0, 65535),
+      fewer(0, 14);
+  for (int k = 0; k < 100000; ++k) {
+    const std::int32_t y_q16 = word(random) >> fewer(random);
+    const auto gate_uq16 = std::uint16_t(gate(random) >> fewer(random));
+    const double exact = y_q16 * 0x1p-16 * gate_uq16 * 0x1p-16;
+    const double got = urad::word_q24(y_q16, gate_uq16) * 0x1p-24;
+    if (std::fabs(exact) < urad::kMostWord - 1)
+      REQUIRE(std::fabs(got - exact) <= 0x1p-25);
+    else
+      REQUIRE(std::fabs(got - std::clamp<double>(exact, -urad::kMostWord, urad::kMostWord)) <= 1);
+    REQUIRE(got == -urad::word_q24(-y_q16, gate_uq16) * 0x1p-24);
+  }
 }

@@ -95,11 +95,8 @@ TEST_CASE("8 bits with compensation lose less than plain rounding") {
   host::Random random(kSeed + 2);
   const host::FloatNet teacher = random_net(4, 1.5, kSeed + 3);
   host::TrainingSet set;
-  for (int k = 0; k < 800; ++k) {
-    host::Sample s = related_sample(random);
-    s.target = s.gate() * teacher.run(s.input_q15.data());
-    set.samples.push_back(s);
-  }
+  for (int k = 0; k < 800; ++k) set.samples.push_back(related_sample(random));
+  set = host::with_word_of(teacher, set);
   const double plain = rms(host::QuantisedNet(host::round_net(teacher, 8, 0.01)), teacher,
                            kSeed + 4, related_sample);
   const double compensated = rms(host::quantise(teacher, 8, 0.01, {&set, 0, 1e-12, 1}), teacher,

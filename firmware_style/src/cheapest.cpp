@@ -22,7 +22,7 @@ int32_t by_network_q24(const PairKernel& kernel, const urad_net& net) noexcept {
   if (kernel.rho_uq16 < net.far_rho_uq16) return by_kernel_q24(kernel);
   Pair inputs;
   pair_inputs(kernel, &inputs);
-  return by_kernel_q24(kernel) + mul_round(network_run(net, inputs.input_q15), inputs.gate_uq16, 8);
+  return by_kernel_q24(kernel) + word_q24(network_run(net, inputs.input_q15), inputs.gate_uq16);
 }
 
 constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a > b ? a : b; }

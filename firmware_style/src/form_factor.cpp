@@ -38,7 +38,7 @@ int32_t corrected_q24(const PairKernel& pair, Kernel kernel, const urad_net* net
       Pair inputs;
       pair_inputs(pair, &inputs);
       const int32_t y_q16 = network_run(*net, inputs.input_q15);
-      log2_g_q24 += far ? 0 : mul_round(y_q16, inputs.gate_uq16, 8);
+      log2_g_q24 += far ? 0 : word_q24(y_q16, inputs.gate_uq16);
     }
   }
   return least(log2_g_q24, limit_q24);

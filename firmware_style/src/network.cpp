@@ -8,7 +8,6 @@ namespace urad {
 namespace {
 
 constexpr int32_t kZLimit_q11 = 32767;    // the sigmoid is flat beyond +-16
-constexpr int32_t kYLimit_q16 = 1 << 20;  // no correction above 2^16
 
 /// network_check() has seen to it that the result fits 32 bits.
 constexpr int32_t rescaled(int32_t accumulator, const urad_rescale& scale) noexcept {
@@ -44,7 +43,7 @@ int32_t network_run(const urad_net& net, const int16_t* input_q15) noexcept {
   const int32_t skip = weighted_sum(net.skip_weight, input_q15, net.inputs, net.output_bias);
   const int32_t sum = net.weight_bits == 8 ? hidden_layer<int8_t>(net, input_q15, skip)
                                            : hidden_layer<int16_t>(net, input_q15, skip);
-  return clamped(rescaled(sum, net.output_rescale), kYLimit_q16);
+  return rescaled(sum, net.output_rescale);
 }
 
 }  // namespace urad

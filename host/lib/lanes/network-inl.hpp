@@ -7,7 +7,7 @@
 #endif
 
 #include "lanes/fixed_math-inl.hpp"
-#include "urad/net.h"
+#include "urad/network.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace host::HWY_NAMESPACE {
@@ -43,7 +43,14 @@ HWY_INLINE Ints network_run(const urad_net& net, const Ints* input_q15) {
   const Ints skip = weighted_sum(net.skip_weight, input_q15, net.inputs, net.output_bias);
   const Ints sum = net.weight_bits == 8 ? hidden_layer<std::int8_t>(net, input_q15, skip)
                                         : hidden_layer<std::int16_t>(net, input_q15, skip);
-  return clamped(rescaled(sum, net.output_rescale), 1 << 20);
+  return rescaled(sum, net.output_rescale);
+}
+
+HWY_INLINE Ints word_q24(Ints y_q16, Ints gate_uq16) {
+  const Ints whole = hn::Mul(as_ints(hn::ShiftRight<16>(magnitude(y_q16))), gate_uq16);
+  const IntMask too_much = hn::Gt(whole, ints(((urad::kMostWord - 1) << 16) - 1));
+  const Ints most_q24 = with_sign(words(std::uint32_t{urad::kMostWord} << 24), y_q16);
+  return hn::IfThenElse(too_much, most_q24, mul_round<8>(y_q16, gate_uq16));
 }
 
 }  // namespace host::HWY_NAMESPACE

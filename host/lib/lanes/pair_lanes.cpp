@@ -25,7 +25,7 @@ void factors(const PatchLanes& patches, std::uint16_t i, std::uint16_t first, st
       if (!hn::AllTrue(kInts, far)) {
         Ints gate_uq16, input_q15[urad::kPairInputs];
         pair_inputs(from, to, pair, &gate_uq16, input_q15);
-        const Ints correction = mul_round<8>(network_run(*net, input_q15), gate_uq16);
+        const Ints correction = word_q24(network_run(*net, input_q15), gate_uq16);
         g = hn::Add(g, hn::IfThenZeroElse(far, correction));
       }
     }

@@ -172,6 +172,12 @@ NetTables round_net(const FloatNet& net, int weight_bits, double far_rho) {
   return tables;
 }
 
+TrainingSet with_word_of(const FloatNet& net, TrainingSet set) {
+  for (Sample& sample : set.samples)
+    sample.target = sample.gate() * net.run(sample.input_q15.data());
+  return set;
+}
+
 QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
                       const Compensation& compensation) {
   if (weight_bits == 8 && compensation.training != nullptr)

@@ -15,7 +15,12 @@ double value_of(const urad_rescale& rescale);
 /// accumulator can overflow. far_rho: 0 .. 1, pairs below it take the kernel alone.
 NetTables round_net(const FloatNet& net, int weight_bits, double far_rho);
 
-/// How to make up for rounding: what the net was trained on, and how.
+/// The set with the net's own word as target, for a net that has to do on pairs that nobody trained
+/// on: with the truth as target, rounding trades many small errors for a few great ones
+/// [distillation: Hinton, Vinyals and Dean 2015].
+TrainingSet with_word_of(const FloatNet& net, TrainingSet set);
+
+/// How to make up for rounding: what the integers are to say, and how to train them to.
 struct Compensation {
   const TrainingSet* training = nullptr;
   double robust = 0, decay = 1e-7;

@@ -20,9 +20,11 @@ namespace host {
 namespace {
 
 constexpr double kHeldOut = 0.2;
-constexpr double kSceneDecay = 1e-10, kGeneralDecay = 1e-7;
+constexpr double kSceneDecay = 1e-10, kGeneralDecay = 3e-7;
 constexpr double kGeneralRobust =
     0.03;  // log2 units: relative errors above 2 % count less and less
+// Of the integers of 8 bits, which are to repeat the net: as close as they can.
+constexpr double kWordRobust = 0.003, kWordDecay = 1e-11;
 // A scene net that leaves more than this error hands its near pairs over to the exact sum, from the
 // greatest of these rho on that keeps it below.
 constexpr double kEnoughStd = 3e-5;
@@ -216,10 +218,10 @@ std::optional<NetFile> train_general_net(const TrainRequest& request) {
   if (!net) return std::nullopt;
 
   const QuantisedNet wide = with_near_rho(quantise(*net, 16, request.far_rho, {}), kGeneralNearRho);
-  const QuantisedNet narrow =
-      with_near_rho(quantise(*net, 8, request.far_rho,
-                             {&dataset.training, kGeneralRobust, kGeneralDecay, request.threads}),
-                    kGeneralNearRho);
+  const TrainingSet own_word = with_word_of(*net, dataset.training);
+  const QuantisedNet narrow = with_near_rho(
+      quantise(*net, 8, request.far_rho, {&own_word, kWordRobust, kWordDecay, request.threads}),
+      kGeneralNearRho);
   const std::vector<PairMethod> methods{engine_method(&wide.pod()), engine_method(&narrow.pod()),
                                         engine_method(nullptr)};
   const auto judged = std::size_t(double(kJudged) * request.effort) + 1;

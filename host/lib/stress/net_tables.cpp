@@ -136,8 +136,7 @@ std::int32_t wide_network(const urad_net& net, const std::int16_t* input_q15) {
         std::clamp<std::int64_t>(rescaled(z, net.hidden_rescale[h]), -32767, 32767);
     sum += std::int64_t{net.output_weight[h]} * urad::sigmoid_uq15(std::int16_t(z_q11));
   }
-  constexpr std::int64_t most = 1 << 20;
-  return std::int32_t(std::clamp(rescaled(sum, net.output_rescale), -most, most));
+  return std::int32_t(rescaled(sum, net.output_rescale));
 }
 
 }  // namespace host
