@@ -219,6 +219,73 @@ TEST_CASE("a wall that was black reflects as from the start, in any channel") {
   }
 }
 
+TEST_CASE("a source that fails while a wall is painted leaves everything as it was") {
+  std::mt19937 random(43);
+  TableScene room(6, 9, URAD_SCENE_CLOSED);
+  room.fill_reciprocal(random, 1);
+  test::furnish(&room);
+  room.set(2, {0, 0.6, 0}, {0, 0, 0});
+  Solve solve(room);
+  std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
+  REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
+          Status::ok);
+  const auto paint = [&](std::uint16_t red, std::uint16_t green, std::uint16_t blue) {
+    const std::uint16_t rho[3] = {red, green, blue};
+    return urad::radiosity_set_reflectance(&solve.state, &room.material[2], rho);
+  };
+  solve.run(0.01);
+  // Painted black after it has been white: what is undone below is known to the unit.
+  REQUIRE(paint(9000, 15000, 24000) == Status::ok);
+  solve.run(0.01);
+  REQUIRE(paint(0, 15000, 0) == Status::ok);
+  solve.run(0.001);
+  const urad_radiosity before = solve.state;
+  const std::vector<std::uint32_t> power = solve.memory;
+  const std::size_t light = 6 * std::size_t(room.patches());  // the rest is room for a run
+  constexpr int kCalls = 9 * 6;                               // a row of six runs for every patch
+  for (int call = 0; call < kCalls; ++call) {
+    CAPTURE(call);
+    room.fail_after = call;
+    CHECK(paint(20000, 12000, 9000) == Status::bad_net);
+    CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+    CHECK(std::equal(power.begin(), power.begin() + std::ptrdiff_t(light), solve.memory.begin()));
+    CHECK(room.material[2].reflectance_uq15[1] == 15000);
+  }
+  room.fail_after = kCalls;
+  CHECK(paint(20000, 12000, 9000) == Status::ok);
+  room.fail_after = -1;
+  CHECK(urad::radiosity_audit(solve.state, nullptr));
+  solve.run(1e-5);
+  CHECK(solve.relative_rms() < 3e-3);
+}
+
+TEST_CASE("a wall that would reflect more than a patch can hold is not painted") {
+  std::mt19937 random(44);
+  TableScene room(6, 9, URAD_SCENE_CLOSED);
+  room.fill_reciprocal(random, 1);
+  test::furnish(&room);
+  for (int s = 1; s < 6; ++s) room.set(s, {0, 1.0 / 32768, 1.0 / 32768}, {0, 0, 0});
+  room.set(0, {0, 0, 0}, {1300000, 1300000, 1300000});
+  room.row.assign(54, std::vector<std::uint32_t>(54, 0));
+  // The lamp shines on one patch of the wall, from all of its own.
+  for (std::size_t k = 0; k < 9; ++k) room.row[k][9] = 1u << 31, room.row[9][k] = 1u << 31;
+  Solve solve(room);
+  REQUIRE(solve.status == Status::ok);
+  std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
+  REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
+          Status::ok);
+  solve.run(1e-3);
+  REQUIRE(solve.status == Status::ok);
+  const urad_radiosity before = solve.state;
+  const std::uint16_t white[3] = {32768, 32768, 32768}, grey[3] = {3000, 3000, 3000};
+  CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[1], white) ==
+        Status::overflow);
+  CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+  CHECK(room.material[1].reflectance_uq15[0] == 0);
+  CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[1], grey) == Status::ok);
+  CHECK(urad::radiosity_audit(solve.state, nullptr));
+}
+
 TEST_CASE("one basis per light: the mix is the light of a solve with those colours") {
   std::mt19937 random(77);
   TableScene room(6, 9, URAD_SCENE_CLOSED);

@@ -41,48 +41,77 @@ Status gather_met(Radiosity* s, uint16_t patch, int64_t* met) noexcept {
   return Status::ok;
 }
 
-/// What one patch of a material reflects more than it did when its reflectance changes.
-Status reflected_more(Radiosity* s, uint32_t patch, const urad_material& from,
-                      const uint16_t* to_uq15, int64_t* more) noexcept {
-  int64_t met[3];
-  bool gathered = false;
-  for (uint32_t c = 0; c < 3; ++c) {
-    const uint32_t at = 3 * patch + c;
-    const int32_t rise = int32_t(to_uq15[c]) - from.reflectance_uq15[c];
-    more[c] = 0;
-    if (rise == 0) continue;
-    const uint32_t old = from.reflectance_uq15[c];
-    if (old == 0) {
-      if (!gathered) {
-        const Status status = gather_met(s, uint16_t(patch), met);
-        if (status != Status::ok) return status;
-        gathered = true;
-      }
-      more[c] = round_shift(met[c] * rise, 15);
-      continue;
-    }
-    const int64_t reflected = int64_t{s->shot[at]} + s->unshot[at] - s->emitted[at];
-    if (reflected == 0) continue;
+/// What a patch has reflected so far.
+int64_t reflected_by(const Radiosity& s, uint32_t patch, uint32_t channel) noexcept {
+  const uint32_t at = 3 * patch + channel;
+  return int64_t{s.shot[at]} + s.unshot[at] - s.emitted[at];
+}
+
+/// A material's reflectance, before and after.
+struct Paint {
+  const uint16_t *from_uq15, *to_uq15;
+
+  /// Nothing that the patches have kept tells what they will reflect.
+  bool on_black(uint32_t c) const noexcept { return from_uq15[c] == 0 && to_uq15[c] != 0; }
+
+  /// What is reflected more than it was. Painted black, a patch keeps no unit of it.
+  int64_t more(int64_t reflected, uint32_t c) const noexcept {
+    if (to_uq15[c] == 0) return -reflected;
+    const uint32_t old = from_uq15[c];
+    const int32_t rise = int32_t(to_uq15[c]) - from_uq15[c];
     // |reflected| < 2^33 and |rise| <= 2^15; rounded by adding half the divisor.
     const uint64_t product = magnitude(reflected) * magnitude(rise) + old / 2;
     const int64_t size = ratio_q(int64_t(product), old, 0);
-    more[c] = (reflected < 0) == (rise < 0) ? size : -size;
+    return (reflected < 0) == (rise < 0) ? size : -size;
   }
-  return changed(*s, patch, more).fits ? Status::ok : Status::overflow;
+};
+
+/// A patch reflects so much more: unshot now, and absorbed no longer.
+void reflect_more(Radiosity* s, uint32_t patch, const int64_t* more) noexcept {
+  write(s, patch, changed(*s, patch, more));
+  for (int c = 0; c < 3; ++c) {
+    s->reflected[c] += more[c];
+    s->ledger.absorbed[c] -= more[c];
+  }
 }
 
-/// Until a visit is not ok.
+/// Looks whether all that a patch reflects more fits; writes what it reflects in channels that were
+/// black.
+Status paint_black(Radiosity* s, uint32_t patch, const Paint& paint) noexcept {
+  int64_t met[3] = {0, 0, 0}, more[3];
+  if (paint.on_black(0) || paint.on_black(1) || paint.on_black(2)) {
+    const Status status = gather_met(s, uint16_t(patch), met);
+    if (status != Status::ok) return status;
+  }
+  for (uint32_t c = 0; c < 3; ++c)
+    more[c] = paint.on_black(c) ? round_shift(met[c] * paint.to_uq15[c], 15)
+                                : paint.more(reflected_by(*s, patch, c), c);
+  if (!changed(*s, patch, more).fits) return Status::overflow;
+  for (uint32_t c = 0; c < 3; ++c)
+    if (!paint.on_black(c)) more[c] = 0;
+  reflect_more(s, patch, more);
+  return Status::ok;
+}
+
+/// The rest of it; or, to undo the above, what black channels have reflected is taken from them.
+void paint_rest(Radiosity* s, uint32_t patch, const Paint& paint, bool undo) noexcept {
+  int64_t more[3] = {0, 0, 0};
+  for (uint32_t c = 0; c < 3; ++c) {
+    if (paint.on_black(c) != undo) continue;
+    const int64_t reflected = reflected_by(*s, patch, c);
+    more[c] = undo ? -reflected : paint.more(reflected, c);
+  }
+  reflect_more(s, patch, more);
+}
+
 template <typename Visit>
-Status for_each_patch_of(const urad_scene& scene, uint32_t material, Visit visit) noexcept {
+void for_each_patch_of(const urad_scene& scene, uint32_t material, Visit visit) noexcept {
   for (uint32_t k = 0; k < scene.surface_count; ++k) {
     const urad_surface& surface = scene.surface[k];
     if (surface.material != material) continue;
-    for (uint32_t place = 0; place < surface.patch_count; ++place) {
-      const Status status = visit(surface.first_patch + place);
-      if (status != Status::ok) return status;
-    }
+    for (uint32_t place = 0; place < surface.patch_count; ++place)
+      visit(surface.first_patch + place);
   }
-  return Status::ok;
 }
 
 }  // namespace
@@ -145,23 +174,15 @@ Status radiosity_set_reflectance(Radiosity* s, urad_material* material,
   for (int c = 0; c < 3; ++c) {
     if (reflectance_uq15[c] > 32768) return Status::bad_argument;
   }
-  int64_t more[3];
-  // Once to see that all fits, and once more to write.
-  const auto rise = [&](uint32_t patch) {
-    return reflected_more(s, patch, *material, reflectance_uq15, more);
-  };
-  Status status = for_each_patch_of(scene, number, rise);
-  if (status != Status::ok) return status;
-  status = for_each_patch_of(scene, number, [&](uint32_t patch) {
-    const Status risen = rise(patch);
-    if (risen != Status::ok) return risen;
-    write(s, patch, changed(*s, patch, more));
-    for (int c = 0; c < 3; ++c) {
-      s->reflected[c] += more[c];
-      s->ledger.absorbed[c] -= more[c];
-    }
-    return Status::ok;
+  // The source is asked once, and may fail at any patch: until then all that has been written is
+  // known from what it was written to.
+  const Paint paint{material->reflectance_uq15, reflectance_uq15};
+  Status status = Status::ok;
+  for_each_patch_of(scene, number, [&](uint32_t patch) {
+    if (status == Status::ok) status = paint_black(s, patch, paint);
   });
+  const bool undo = status != Status::ok;
+  for_each_patch_of(scene, number, [&](uint32_t patch) { paint_rest(s, patch, paint, undo); });
   if (status != Status::ok) return status;
   for (int c = 0; c < 3; ++c) material->reflectance_uq15[c] = reflectance_uq15[c];
   measure_scene(s);

@@ -110,10 +110,10 @@ Status radiosity_set_emission(Radiosity* state, uint16_t patch, const int32_t* e
 /// unshot power. In channels that have been black nothing tells what light has met them: it is gathered
 /// over what all patches have shot, by reciprocity (a hemicube's rows are not reciprocal, and leave
 /// their error). Cost: 500 instructions a patch of the material, 300 for every other; where it was
-/// black, two rows of factors a patch.
+/// black, a row of factors a patch.
 ///
 /// bad_argument: not ready, `material` not in the scene's table, reflectance out of range. overflow as
-/// above. A status of the source, at the first of the two looks. Nothing is then written.
+/// above. A status of the source, wherever it fails. Nothing is then changed.
 Status radiosity_set_reflectance(Radiosity* state, urad_material* material,
                                  const uint16_t* reflectance_uq15) noexcept;
 

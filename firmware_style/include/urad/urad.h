@@ -244,8 +244,8 @@ urad_status urad_radiosity_set_emission(urad_radiosity* state, uint16_t patch,
 /* One material of the scene gets another reflectance; the scene's `material` must be in RAM.
  *   material          an element of the scene's table; written on success
  *   reflectance_uq15  [3], 32768 = 1
- * A wall that was black costs two rows of factors a patch: the light that met it is gathered.
- * Failure: URAD_BAD_ARGUMENT, URAD_OVERFLOW, a status of the source. */
+ * A wall that was black costs a row of factors a patch: the light that met it is gathered.
+ * Failure: URAD_BAD_ARGUMENT, URAD_OVERFLOW, a status of the source. Nothing is then changed. */
 urad_status urad_radiosity_set_reflectance(urad_radiosity* state, urad_material* material,
                                            const uint16_t* reflectance_uq15);
 
