@@ -25,7 +25,7 @@ PolygonPair mapped(PolygonPair pair, const Map& map) {
 
 PolygonPair rotated(const PolygonPair& pair, Random& random) {
   const glm::dmat3 turn = random_rotation(random);
-  const Vec3 shift(random.uniform(), random.uniform(), random.uniform());
+  const Vec3 shift = random_point(random);
   return mapped(pair, [&](const Vec3& x) { return turn * x + shift; });
 }
 
@@ -99,7 +99,7 @@ PolygonPair hinge(double degrees, double w, double h, double l) {
 Polygon random_quad(Random& random) {
   for (;;) {
     const glm::dmat3 axes = random_rotation(random);
-    Vec3 x(random.uniform(), random.uniform(), random.uniform());
+    Vec3 x = random_point(random);
     Polygon quad;
     bool inside = true;
     for (int k = 0; k < 4 && inside; ++k) {

@@ -1,4 +1,5 @@
-// Directions and attitudes without a preferred one.
+// Points, directions and attitudes without a preferred one. Numbers are drawn in statements of
+// their own: in which order arguments are looked at is the compiler's choice.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -7,6 +8,12 @@
 #include "network/random.hpp"
 
 namespace host {
+
+/// Uniform in the unit cube; z is drawn first.
+inline Vec3 random_point(Random& random) {
+  const double z = random.uniform(), y = random.uniform();
+  return {random.uniform(), y, z};
+}
 
 /// Uniform on the unit sphere [Archimedes].
 inline Vec3 random_direction(Random& random) {

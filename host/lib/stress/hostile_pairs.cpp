@@ -26,7 +26,7 @@ PolygonPair mapped(PolygonPair pair, const Map& map) {
 PolygonPair placed(const PolygonPair& pair, Random& random) {
   if (random.below(4) == 0) return pair;
   const glm::dmat3 turn = random_rotation(random);
-  const Vec3 shift(random.uniform(), random.uniform(), random.uniform());
+  const Vec3 shift = random_point(random);
   return mapped(pair, [&](const Vec3& v) { return turn * v + shift; });
 }
 
@@ -43,7 +43,8 @@ PolygonPair wedge(Random& random) {
 PolygonPair plates(Random& random, double gap, double turn, double tilt, double size) {
   const double w = side(random), h = side(random);
   PolygonPair pair{rectangle(w, h), flipped(rectangle(w * size, h * size))};
-  const Vec3 shift(random.uniform(-0.5, 1) * w, random.uniform(-0.5, 1) * h, gap);
+  const double up = random.uniform(-0.5, 1) * h;
+  const Vec3 shift(random.uniform(-0.5, 1) * w, up, gap);
   for (Vec3& x : pair.q.outer) {
     const double u = std::cos(turn) * x.x - std::sin(turn) * x.y;
     const double v = std::sin(turn) * x.x + std::cos(turn) * x.y;
@@ -54,18 +55,20 @@ PolygonPair plates(Random& random, double gap, double turn, double tilt, double 
 
 PolygonPair near_parallel(Random& random) {
   const double turn = random.log_uniform(1e-16, 1e-4), tilt = random.log_uniform(1e-16, 1e-4);
-  return plates(random, side(random), random.below(3) ? turn : 0, random.below(3) ? tilt : 0, 1);
+  const bool tilted = random.below(3) != 0, turned = random.below(3) != 0;
+  return plates(random, side(random), turned ? turn : 0, tilted ? tilt : 0, 1);
 }
 
 PolygonPair close_plates(Random& random) {
-  return plates(random, random.log_uniform(1e-9, 1e-2), random.uniform(0, kPi), 0,
-                random.log_uniform(0.1, 10));
+  const double size = random.log_uniform(0.1, 10), turn = random.uniform(0, kPi);
+  return plates(random, random.log_uniform(1e-9, 1e-2), turn, 0, size);
 }
 
 PolygonPair of_sizes(Random& random) {
   const double size = random.log_uniform(1e-9, 1);
-  PolygonPair pair = plates(random, side(random) * std::pow(size, random.uniform()),
-                            random.uniform(0, kPi), random.uniform(-1, 1), size);
+  const double tilt = random.uniform(-1, 1), turn = random.uniform(0, kPi);
+  const double gap = side(random) * std::pow(size, random.uniform());
+  PolygonPair pair = plates(random, gap, turn, tilt, size);
   if (random.below(2)) std::swap(pair.p, pair.q);
   return pair;
 }
@@ -75,7 +78,8 @@ PolygonPair slivers(Random& random) {
   const double other = random.below(2) ? thin : side(random);
   if (random.below(3) == 0) return hinge(random.uniform(1, 179), thin, other, length);
   PolygonPair pair{rectangle(thin, length), flipped(rectangle(length, other))};
-  const Vec3 shift(random.uniform(-1, 1), random.uniform(-1, 1), random.log_uniform(1e-3, 10));
+  const double gap = random.log_uniform(1e-3, 10), y = random.uniform(-1, 1);
+  const Vec3 shift(random.uniform(-1, 1), y, gap);
   for (Vec3& x : pair.q.outer) x += shift;
   return pair;
 }
@@ -94,7 +98,8 @@ Loop star(int corners, double spread, Random& random) {
 PolygonPair facing(const Loop& below, Loop above, Random& random) {
   std::reverse(above.begin(), above.end());
   const double tilt = random.uniform(-0.5, 0.5);
-  const Vec3 shift(random.uniform(-1, 1), random.uniform(-1, 1), random.log_uniform(0.05, 5));
+  const double gap = random.log_uniform(0.05, 5), y = random.uniform(-1, 1);
+  const Vec3 shift(random.uniform(-1, 1), y, gap);
   for (Vec3& x : above) x = Vec3(x.x, std::cos(tilt) * x.y, std::sin(tilt) * x.y) + shift;
   return {{below, {}}, {above, {}}};
 }
@@ -142,11 +147,13 @@ PolygonPair repeated(Random& random) {
 }
 
 PolygonPair of_scale(Random& random) {
-  return scaled(placed(any_plain(random), random), random.log_uniform(1e-12, 1e12));
+  const double scale = random.log_uniform(1e-12, 1e12);
+  return scaled(placed(any_plain(random), random), scale);
 }
 
 PolygonPair far_away(Random& random) {
-  const Vec3 shift = random.log_uniform(10, 1e6) * random_direction(random);
+  const Vec3 direction = random_direction(random);
+  const Vec3 shift = random.log_uniform(10, 1e6) * direction;
   return mapped(placed(any_plain(random), random), [&](const Vec3& x) { return x + shift; });
 }
 
