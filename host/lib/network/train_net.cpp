@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -77,7 +76,7 @@ class Session {
       }
       return !stop;
     };
-    const auto trained = run(training, validation, settings, hooks);
+    auto trained = run(training, validation, settings, hooks);
     if (!trained) return std::nullopt;
     const Eigen::VectorXd& p = trained->parameters;
     checkpoint_.finished.emplace_back(p.data(), p.data() + p.size());
@@ -86,7 +85,8 @@ class Session {
   }
 
   void finish() const {
-    if (!request_.checkpoint.empty()) std::remove(request_.checkpoint.c_str());
+    std::error_code none;  // what cannot be removed is resumed, and then done at once
+    if (!request_.checkpoint.empty()) std::filesystem::remove(request_.checkpoint, none);
   }
 
  private:

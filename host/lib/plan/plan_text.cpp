@@ -26,7 +26,8 @@ std::string plan_text(const Plan& plan) {
   for (std::size_t k = 0; k < plan.methods.size(); ++k) {
     const PlannedMethod& m = plan.methods[k];
     std::string remark = plan.recommended == k ? "<- take this" : m.misfit;
-    if (!m.setting.empty()) remark = m.setting + (remark.empty() ? "" : "; " + remark);
+    if (!m.setting.empty())
+      remark = remark.empty() ? m.setting : fmt::format("{}; {}", m.setting, remark);
     if (m.per_solve == 0) {
       text += fmt::format("{:<16} {:>67}  {}\n", m.method, "", remark);
       continue;

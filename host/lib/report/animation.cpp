@@ -1,5 +1,7 @@
 #include "report/animation.hpp"
 
+#include <fmt/core.h>
+
 #include "base/csv.hpp"
 #include "base/error.hpp"
 #include "solve/fixed_solve.hpp"

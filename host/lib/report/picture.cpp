@@ -99,7 +99,8 @@ void View::trace() {
       for (std::size_t s = 0; s < strata * strata; ++s) {
         // Each sample has a column and a row of its own: upright edges get strata^2 levels, and no
         // noise.
-        const double i = double(s % strata), j = double(s / strata), n = double(strata);
+        const std::size_t in_row = s % strata, in_column = s / strata;
+        const double i = double(in_row), j = double(in_column), n = double(strata);
         const double dx = (i + (j + 0.5) / n) / n, dy = (j + (i + 0.5) / n) / n;
         const RayHit hit =
             rays.trace((double(column) + dx) / double(width), (double(row) + dy) / double(height));

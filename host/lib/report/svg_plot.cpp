@@ -97,7 +97,7 @@ Label place_label(double x, double y, double width, const std::vector<Rectangle>
 }
 
 std::string tick_text(double value, const std::string& unit) {
-  const std::string text = metric(value, 1);
+  std::string text = metric(value, 1);
   if (unit.empty()) return text;
   return text.find(' ') == std::string::npos ? text + " " + unit : text + unit;
 }

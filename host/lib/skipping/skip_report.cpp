@@ -179,8 +179,11 @@ std::string early_chart(const SkipReport& report) {
   const auto curve = [&](const std::string& name, const std::vector<double>& errors, double shot) {
     PlotCurve result{name, {}};
     // Steps of a fiftieth, no shot twice.
-    for (double at = 1; at < double(errors.size()); at = std::max(at + 1, at * 1.02))
+    double at = 1;
+    while (at < double(errors.size())) {
       result.points.push_back({at * shot, errors[std::size_t(at)]});
+      at = std::max(at + 1, at * 1.02);
+    }
     return result;
   };
   std::vector<PlotCurve> curves{curve("in turn, nothing skipped", report.by_number, off)};

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "scene/builtin.hpp"
@@ -33,10 +33,13 @@ std::string text_of(const RandomNetCase& c) {
 RandomNetCase case_of(const std::string& text) {
   int temper = 0, inputs = 0, hidden = 0, bits = 0;
   unsigned long long seed = 0;
-  if (std::sscanf(text.c_str(), "temper %d inputs %d hidden %d bits %d seed %llu", &temper, &inputs,
-                  &hidden, &bits, &seed) != 5 ||
-      inputs < 1 || inputs > URAD_NET_MAX_INPUTS || hidden < 1 || hidden > URAD_NET_MAX_HIDDEN ||
-      (bits != 8 && bits != 16))
+  const std::array<std::string, 5> names{"temper", "inputs", "hidden", "bits", "seed"};
+  std::array<std::string, 5> name;
+  std::istringstream words(text);
+  words >> name[0] >> temper >> name[1] >> inputs >> name[2] >> hidden >> name[3] >> bits;
+  words >> name[4] >> seed;
+  if (!words || name != names || inputs < 1 || inputs > URAD_NET_MAX_INPUTS || hidden < 1 ||
+      hidden > URAD_NET_MAX_HIDDEN || (bits != 8 && bits != 16))
     throw Error("a case of a random net is 'temper T inputs N hidden H bits 8 or 16 seed S'");
   return {NetTemper(temper), inputs, hidden, bits, seed};
 }

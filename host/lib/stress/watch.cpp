@@ -33,8 +33,8 @@ void write_case(const char* path, const std::string& text) {
 
 void on_signal(int number) {
   if (t_case && g_crash_path) write_case(g_crash_path, *t_case);
-  std::signal(number, SIG_DFL);
-  std::raise(number);
+  (void)std::signal(number, SIG_DFL);  // where these fail, too, the program goes on to its end
+  (void)std::raise(number);
 }
 
 double seconds_of(clockid_t clock) {
@@ -51,7 +51,7 @@ constexpr bool kOwnHandlers = true;
 
 void handle_signals(void (*handler)(int)) {
   if (!kOwnHandlers) return;
-  for (const int number : kSignals) std::signal(number, handler);
+  for (const int number : kSignals) (void)std::signal(number, handler);
 }
 
 }  // namespace
@@ -105,8 +105,8 @@ void CaseWatch::report_hang(const std::string& text, double most_seconds) const 
   const std::string path =
       folder_.empty() ? "" : folder_.substr(0, folder_.size() - kName) + "hang.case";
   if (!path.empty()) write_case(path.c_str(), text);
-  std::fprintf(stderr, "urad: stress: a case did not end within %.0f s%s%s\n", most_seconds,
-               path.empty() ? "" : "; urad stress --replay ", path.c_str());
+  (void)std::fprintf(stderr, "urad: stress: a case did not end within %.0f s%s%s\n", most_seconds,
+                     path.empty() ? "" : "; urad stress --replay ", path.c_str());
   std::_Exit(1);
 }
 
