@@ -63,6 +63,7 @@ std::string on_scene(const host::Scene& scene, const std::vector<Entry>& entries
 std::string on_random_pairs(const Options& options, const std::vector<Entry>& entries,
                             double far_rho, const Common& common) {
   std::vector<host::PairMethod> methods;
+  methods.reserve(entries.size());
   for (const Entry& entry : entries) methods.push_back(host::engine_method(entry.net));
   const auto families =
       host::measure_general(methods, options.seed, options.pairs, far_rho, common.threads);

@@ -22,7 +22,7 @@ void add_help(CLI::App& app, std::string* topic) {
     // app.help() would be that of the command in work, which is `help`.
     const std::string all =
         app.get_formatter()->make_help(&app, "urad", CLI::AppFormatMode::Normal);
-    std::fputs(topic->empty() ? all.c_str() : app.get_subcommand(*topic)->help().c_str(), stdout);
+    fmt::print("{}", topic->empty() ? all : app.get_subcommand(*topic)->help());
   });
 }
 
