@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "accuracy/pair_families.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "geometry/order.hpp"
 #include "method/engine_source.hpp"
@@ -123,6 +124,40 @@ TEST_CASE("the exchange is one integer, whoever asks") {
       }
     }
   }
+}
+
+TEST_CASE("the points of a sum are those of its rules: one, four, nine, eighteen more a halving") {
+  std::size_t pairs[urad::kWays] = {};
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 40);
+    for (const host::PolygonPair& pair : set.pairs) {
+      if (pair.p.outer.size() != 4 || pair.q.outer.size() != 4) continue;
+      if (host::is_concave(pair.p) || host::is_concave(pair.q)) continue;  // more than one piece
+      const host::FixedScene scene = scene_of(pair);
+      const urad::Patch p = urad::patch_at(scene.pod(), 0), q = urad::patch_at(scene.pod(), 1);
+      for (const double error : {0.3, 0.1, 0.03, 0.01, 0.001}) {
+        urad_counters counters{};
+        const urad::CheapestPair found =
+            urad::cheapest_exchange(scene.pod(), p, q, nullptr, q8(error), &counters);
+        if (counters.clipped != 0) continue;
+        ++pairs[int(found.way)];
+        // What was tried first, and was not enough.
+        const int points = found.point_sums;
+        const auto after = [&](int rule, int halvings) {
+          const int sums = rule + 18 * halvings;
+          return points == sums || points == sums + 1 || points == sums + 4 || points == sums + 5;
+        };
+        if (found.way <= urad::Way::network) REQUIRE(points == 0);
+        if (found.way == urad::Way::point) REQUIRE(points == 1);
+        if (found.way == urad::Way::four_points) REQUIRE((points == 4 || points == 5));
+        if (found.way == urad::Way::nine_points) REQUIRE(after(9, 0));
+        if (found.way == urad::Way::refined) REQUIRE(after(9, (points - 9) / 18));
+      }
+    }
+  }
+  CHECK(pairs[int(urad::Way::point)] > 0);
+  CHECK(pairs[int(urad::Way::four_points)] > 0);
+  CHECK(pairs[int(urad::Way::refined)] > 0);
 }
 
 TEST_CASE("less error never comes cheaper, and a first vertex decides nothing but rounding") {

@@ -314,3 +314,19 @@ TEST_CASE("a patch so small that its vertices are one point exchanges nothing by
     }
   }
 }
+
+TEST_CASE(
+    "sums of two and of three points a side know their first differences, of one they do not") {
+  const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
+  const host::Polygon wall{{{0, 0, 0.1}, {0, 1.5, 0.1}, {0, 1.5, 1.2}, {0, 0, 1.2}}, {}};
+  const host::FixedScene scene = host::FixedScene::of_polygons({floor, wall}, {});
+  const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
+  const auto slope = [&](int points) {
+    return urad::lambert_refined(scene.pod(), i, j, points, 0).log2_trait_q8[urad::sum_slope] /
+           256.0;
+  };
+  CHECK(slope(1) == -24);
+  // The factor falls to a small part over the floor: its differences are of its own size.
+  CHECK(std::fabs(slope(2)) < 2);
+  CHECK(std::fabs(slope(3)) < 2);
+}

@@ -81,3 +81,25 @@ TEST_CASE("the exchange of a pair is one integer, whichever patch comes first") 
     }
   }
 }
+
+TEST_CASE("an exact pair counts as a near one, or as one that does not face the other") {
+  const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
+  const host::Polygon above{{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {}};
+  const host::Polygon turned{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, {}};
+  const auto asked = [&](const host::Polygon& other, urad_counters* counters) {
+    const host::FixedScene scene = host::FixedScene::of_polygons({floor, other}, {});
+    const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
+    const std::int32_t g = urad::exchange_exact_q24(scene.pod(), i, j, 2, counters);
+    return urad::form_factor_uq32(g, i.shape->log2_area_q24) / 0x1p32;
+  };
+  urad_counters facing{}, away{};
+  CHECK(asked(above, &facing) == doctest::Approx(0.19982).epsilon(2e-3));  // [Howell C-11]
+  CHECK(facing.evaluated == 1);
+  CHECK(facing.near_pairs == 1);
+  CHECK(facing.skipped_facing == 0);
+  CHECK(facing.sums >= 4);
+  CHECK(asked(turned, &away) == 0);
+  CHECK(away.evaluated == 0);
+  CHECK(away.near_pairs == 0);
+  CHECK(away.skipped_facing == 1);
+}
