@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -179,7 +180,11 @@ TEST_CASE("scenes of triangles, and damaged networks, are refused") {
   CHECK(broken([](auto& n) { n.hidden = 65; }));
   CHECK(broken([](auto& n) { n.output_shift = 16; }));
   CHECK(broken([](auto& n) { n.reserved[1] = 1; }));
+  CHECK(broken([](auto& n) { n.reserved[0] = 1; }));
   CHECK(broken([](auto& n) { n.hidden_weight = nullptr; }));
+  CHECK(broken([](auto& n) { n.hidden_shift = nullptr; }));
+  CHECK(broken([](auto& n) { n.hidden_bias = nullptr; }));
+  CHECK(broken([](auto& n) { n.output_weight = nullptr; }));
   CHECK(broken([](auto& n) { n.output_bias ^= 1; }));
   CHECK(broken([](auto& n) {
     n.output_bias = INT32_MAX;  // a sum that overflows, checksum right
@@ -198,8 +203,70 @@ TEST_CASE("scenes of triangles, and damaged networks, are refused") {
                           urad::legacy_bytes(5)) == urad::Status::ok);
   CHECK(urad::legacy_init(&source, &cube.pod(), &good.pod(), 0, &counters, memory,
                           urad::legacy_bytes(5) - 1) == urad::Status::out_of_memory);
-  CHECK(urad::legacy_init(&source, &cube.pod(), &good.pod(), 0, nullptr, memory, 80) ==
-        urad::Status::bad_argument);
+  const auto init = [&](urad::LegacySource* to, const urad_scene* scene, urad_counters* counts,
+                        void* at) {
+    return urad::legacy_init(to, scene, &good.pod(), 0, counts, at, sizeof memory - 4);
+  };
+  CHECK(init(nullptr, &cube.pod(), &counters, memory) == urad::Status::bad_argument);
+  CHECK(init(&source, nullptr, &counters, memory) == urad::Status::bad_argument);
+  CHECK(init(&source, &cube.pod(), nullptr, memory) == urad::Status::bad_argument);
+  CHECK(init(&source, &cube.pod(), &counters, nullptr) == urad::Status::bad_argument);
+  CHECK(init(&source, &cube.pod(), &counters, reinterpret_cast<char*>(memory) + 2) ==
+        urad::Status::out_of_memory);
+  urad_legacy_net stranger = good.pod();
+  stranger.abi = 7;
+  CHECK(urad::legacy_init(&source, &cube.pod(), &stranger, 0, &counters, memory, 80) ==
+        urad::Status::bad_net);
+}
+
+TEST_CASE("weights of any number of fraction bits: what reaches too far is refused") {
+  const host::LegacyFixed good(host::round_legacy(random_net(5, host::LegacyScaling::log, 1)));
+  std::vector<std::uint8_t> shift(5);
+  std::vector<std::int32_t> bias(5, 0);
+  const auto checked = [&](std::uint8_t bits, std::int32_t most, unsigned flags) {
+    std::fill(shift.begin(), shift.end(), bits);
+    bias[4] = most;
+    urad_legacy_net net = good.pod();
+    net.hidden_shift = shift.data();
+    net.hidden_bias = bias.data();
+    net.flags = std::uint16_t(flags);
+    net.crc32 = urad::legacy_crc32(net);
+    return urad::legacy_check(&net);
+  };
+  using urad::Status;
+  // Weights of 16 bits over 2^24: the sum of 24 of them is below 1/16.
+  CHECK(checked(24, 0, URAD_LEGACY_LOG | URAD_LEGACY_PROVEN) == Status::ok);
+  CHECK(checked(23, 0, URAD_LEGACY_LOG | URAD_LEGACY_PROVEN) == Status::ok);
+  CHECK(checked(25, 0, URAD_LEGACY_LOG) == Status::bad_net);
+  CHECK(checked(24, 16 << 23, URAD_LEGACY_LOG) == Status::ok);
+  CHECK(checked(24, 16 << 23, URAD_LEGACY_LOG | URAD_LEGACY_PROVEN) == Status::bad_net);
+  CHECK(checked(24, INT32_MAX, URAD_LEGACY_LOG) == Status::bad_net);
+  CHECK(checked(0, 0, URAD_LEGACY_LOG) == Status::bad_net);
+}
+
+TEST_CASE("a repair scales what a network of the report says, up to 1") {
+  const host::Scene scene = host::load_scene("cube7");
+  host::FixedScene fixed(scene);
+  const host::LegacyFixed net(host::round_legacy(random_net(30, host::LegacyScaling::linear, 2)));
+  const host::NetChoice nets = choice(net.pod());
+  const auto row = [&] {
+    const host::EngineSource source(fixed, host::parse_method("legacy"), nets, {});
+    std::vector<std::uint32_t> f(294);
+    source.row(3, f.data());
+    return f;
+  };
+  const std::vector<std::uint32_t> plain = row();
+  std::vector<double> scale(294, 1.0);
+  scale[3] = 0.5, scale[100] = 4, scale[200] = 0.25, scale[250] = 1e6;
+  fixed.set_scale(scale);
+  const std::vector<std::uint32_t> scaled = row();
+  for (std::size_t j = 0; j < 294; ++j) {
+    CAPTURE(j);
+    const double exact = std::min(plain[j] * 0.5 * scale[j], 0x1p32 - 1);
+    CHECK(scaled[j] == doctest::Approx(exact).epsilon(2e-5));
+  }
+  CHECK(plain[250] > 1 << 20);
+  CHECK(scaled[250] == 0xFFFFFFFFu);
 }
 
 TEST_CASE("one checksum over a range of outputs: equal on every target") {
