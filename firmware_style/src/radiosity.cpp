@@ -91,8 +91,7 @@ void survey(Radiosity* s) noexcept {
   uint32_t gain = gain_uq16(rho_uq16 > own_uq16 ? rho_uq16 - own_uq16 : 0);
   if (s.flags & kTwoWays) gain = two_ways_gain_uq16(s, gain);
   if (gain > kOvershootMost_uq16) gain = kOvershootMost_uq16;
-  const uint64_t ambient = (all * gain) >> 16;
-  if (ambient >> 40) return unshot;
+  const uint64_t ambient = (all * gain) >> 16;  // below 2^36
   const uint64_t returns = (ambient * exp2_uq(log2_share_q24, 23)) >> 23;
   const uint64_t share =
       (returns * s.scene->material[surface.material].reflectance_uq15[channel]) >> 15;
@@ -201,17 +200,18 @@ urad_status shoot(Radiosity* s, const urad_surface& from, Beam* beam, uint64_t* 
 void guard(Radiosity* s) noexcept {
   constexpr uint32_t kFewUnits = 3 * 256;  // of a patch
   constexpr uint16_t kSwing = 64;
+  if (s->status != URAD_OK) return;
   const uint16_t patches = s->scene->patch_count;
   const bool swings = (s->flags & URAD_OVERSHOOT) && patches < kSwing;
   if (++s->window_shots < (swings ? kSwing : patches)) return;
   const uint64_t before = s->window_remaining;
-  const bool falls = s->remaining + (before >> 12) < before || s->remaining == 0;
+  const bool falls = s->remaining + (before >> 12) < before;
   s->window_shots = 0;
   s->window_remaining = s->remaining;
   s->window_strikes = falls ? 0 : uint8_t(s->window_strikes + 1);
   const bool few = s->remaining < uint64_t{kFewUnits} * patches;
   const int strikes = few ? 16 : s->flags & URAD_OVERSHOOT ? 4 : 1;
-  if (s->window_strikes >= strikes && s->status == URAD_OK) s->status = URAD_DIVERGES;
+  if (s->window_strikes >= strikes) s->status = URAD_DIVERGES;
 }
 
 }  // namespace
