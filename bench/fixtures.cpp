@@ -40,7 +40,7 @@ PairSet cube_pairs() {
   PairSet set;
   const host::Scene& scene = set.scenes.emplace_back(host::load_scene("cube7"));
   const host::FixedScene& fixed = set.fixed.emplace_back(scene);
-  for (std::uint16_t i = 0; i < scene.patches.size(); ++i) {
+  for (std::uint16_t i = 0; i < fixed.pod().patch_count; ++i) {
     for (std::uint16_t j = 0; j < i; ++j) {
       const host::ScenePatch &a = scene.patches[i], &b = scene.patches[j];
       if (a.surface == b.surface) continue;
