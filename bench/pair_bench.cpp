@@ -42,6 +42,7 @@ void add_row(const std::string& set, const std::string& method, const std::strin
     const std::vector<Pair>& pairs = fixtures::pair_set(set).pairs;
     if (!*known) {  // the library calls this several times for one row
       std::vector<double> factors;
+      factors.reserve(pairs.size());
       for (const Pair& pair : pairs) {
         if constexpr (requires { run.estimated(pair); }) {
           factors.push_back(run.estimated(pair));
@@ -162,6 +163,7 @@ void add_shared_hemicube(const std::string& method) {
         rows[i].assign(f_uq32, f_uq32 + scene.patch_count);
       }
       std::vector<double> factors;
+      factors.reserve(pairs.size());
       for (const Pair& pair : pairs) factors.push_back(rows[pair.i][pair.j] * 0x1p-32);
       *known = fixtures::errors(pairs, factors);
     }
@@ -192,6 +194,7 @@ void add_legacy_rows(const std::string& name) {
       std::vector<std::vector<std::uint32_t>> rows(patches, f_uq32);
       for (std::uint16_t i = 0; i < patches; ++i) source.row(i, rows[i].data());
       std::vector<double> factors;
+      factors.reserve(pairs.size());
       for (const Pair& pair : pairs) factors.push_back(rows[pair.i][pair.j] * 0x1p-32);
       *known = fixtures::errors(pairs, factors);
     }

@@ -90,7 +90,7 @@ void check(const std::string& work, const std::string& out, const std::vector<st
   int wrong = 0;
   double slowest = 0;
   for (const std::string& seed : seeds) {
-    const std::string folder = work + "/" + seed;
+    const std::string folder = fmt::format("{}/{}", work, seed);
     const Measured m(folder, folder + "/room.obj", urad_general.hidden);
     const auto start = std::chrono::steady_clock::now();
     const host::Plan plan = host::make_plan(m.scene, kNets, {});

@@ -229,6 +229,7 @@ std::string code_sizes(const std::string& work) {
 void make_constants(const std::string& work, const std::string& out,
                     const std::vector<std::string>& seeds) {
   std::vector<Measured> scenes;
+  scenes.reserve(seeds.size());
   for (const std::string& seed : seeds) scenes.push_back(measured_seed(work, seed));
   std::vector<Measured> with_cube = scenes;  // a network of four neurons, for what a neuron costs
   with_cube.emplace_back(work + "/cube7", "cube7", urad_cube7.hidden);
