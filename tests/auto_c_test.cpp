@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/trial_pairs.hpp"
@@ -60,6 +61,8 @@ TEST_CASE("C: auto refuses what it cannot do") {
   urad_source source{};
   CHECK(urad_form_factor_auto(nullptr, 0, 1, nullptr, URAD_PERCENT, &factor, nullptr) ==
         URAD_BAD_ARGUMENT);
+  CHECK(urad_form_factor_auto(pod, 2, 0, nullptr, URAD_PERCENT, &factor, nullptr) ==
+        URAD_BAD_ARGUMENT);
   CHECK(urad_form_factor_auto(pod, 0, 2, nullptr, URAD_PERCENT, &factor, nullptr) ==
         URAD_BAD_ARGUMENT);
   CHECK(urad_form_factor_auto(pod, 0, 1, nullptr, 4295, &factor, nullptr) == URAD_BAD_ARGUMENT);
@@ -75,4 +78,30 @@ TEST_CASE("C: auto refuses what it cannot do") {
         URAD_BAD_ARGUMENT);
   CHECK(urad_auto_source_init(&source, pod, nullptr, URAD_PERCENT, 0, &counters, memory, 4) ==
         URAD_OUT_OF_MEMORY);
+}
+
+TEST_CASE("C: auto needs no counters, and says when nothing or less than a unit is exchanged") {
+  const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
+  const auto above = [&](double size, bool turned) {
+    host::Polygon plate{{{0, 0, 1}, {0, size, 1}, {size, size, 1}, {size, 0, 1}}, {}};
+    if (turned) std::reverse(plate.outer.begin(), plate.outer.end());
+    const host::FixedScene scene = host::FixedScene::of_polygons({floor, plate}, {});
+    urad_auto_factor factor{};
+    REQUIRE(urad_form_factor_auto(&scene.pod(), 0, 1, nullptr, URAD_PERCENT, &factor, nullptr) ==
+            URAD_OK);
+    return factor;
+  };
+  const urad_auto_factor one = above(1, false), none = above(1, true);
+  CHECK(one.f_uq32 / kOne == doctest::Approx(0.19982).epsilon(0.01));
+  CHECK(none.way == URAD_WAY_NONE);
+  CHECK(none.f_uq32 == 0);
+  CHECK(none.error_uq32 < 0xFFFFFFFFu);
+  // F = 0.139 size^2: a small part of a unit of 2^-32 is 0, and all of it may be wrong.
+  const urad_auto_factor small = above(1e-5, false);
+  CHECK(small.way != URAD_WAY_NONE);
+  CHECK(small.f_uq32 == 0);
+  CHECK(small.error_uq32 == 0xFFFFFFFFu);
+  const urad_auto_factor some = above(1e-4, false);
+  CHECK(some.f_uq32 == 6);
+  CHECK(some.error_uq32 > (1u << 31) / some.f_uq32);  // half a unit at least
 }

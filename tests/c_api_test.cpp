@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "radiosity_scene.hpp"
+#include "scene/fixed_scene.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
@@ -216,6 +218,10 @@ TEST_CASE("C: radiosity refuses nulls and what is out of range") {
   CHECK(urad_radiosity_error_uq32(&state) > 0xFFFFFF00u);
   CHECK(urad_radiosity_done(&state, URAD_PERCENT) == 0);
   CHECK(urad_radiosity_step(&state) == URAD_OK);
+  CHECK(urad_radiosity_audit(&state, nullptr) == 1);
+  ++state.unshot[7];
+  CHECK(urad_radiosity_audit(&state, nullptr) == 0);
+  --state.unshot[7];
   int32_t b = -7;
   CHECK(urad_radiosity_get(nullptr, 0, 0, &b) == URAD_BAD_ARGUMENT);
   CHECK(urad_radiosity_get(&state, 54, 0, &b) == URAD_BAD_ARGUMENT);
@@ -251,6 +257,15 @@ TEST_CASE(
         URAD_BAD_NET);
   CHECK(urad_pair_source_init(&source, &squares.scene, URAD_KERNEL_MOMENT, &net, 0, &counters,
                               memory, sizeof memory) == URAD_BAD_NET);
+  static constexpr auto cells = urad::make_hemicube_table<16>();
+  const urad_hemicube_table table{16, cells.top, cells.side};
+  std::vector<uint64_t> room(urad_hemicube_source_bytes(&squares.scene, 16, 0, 0) / 8 + 1),
+      more(urad_hybrid_source_bytes() / 8 + 1);
+  urad_source hemicube{nullptr, nullptr};
+  REQUIRE(urad_hemicube_source_init(&hemicube, &squares.scene, &table, 0, 0, &counters, room.data(),
+                                    room.size() * 8) == URAD_OK);
+  CHECK(urad_hybrid_source_init(&source, &hemicube, 1, &net, 16, 0, more.data(), more.size() * 8) ==
+        URAD_BAD_NET);
   REQUIRE(urad_pair_source_init(&source, &squares.scene, URAD_KERNEL_MOMENT, nullptr, 0, &counters,
                                 memory, sizeof memory) == URAD_OK);
   CHECK(source.fill(source.context, 2, 0, 0, 1, f) == URAD_BAD_ARGUMENT);
@@ -259,4 +274,41 @@ TEST_CASE(
   CHECK(source.fill(source.context, 0, 1, 1, 2, f) == URAD_BAD_ARGUMENT);
   CHECK(f[0] == 7);
   CHECK(source.fill(source.context, 0, 1, 1, 1, f) == URAD_OK);
+}
+
+TEST_CASE("C: a hemicube has room for the greatest polygon of a scene, patch or blocker") {
+  const auto polygon = [](int corners, double z, bool down) {
+    host::Polygon p;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = (down ? -2 : 2) * 3.14159265358979 * k / corners;
+      p.outer.push_back({std::cos(angle), std::sin(angle), z});
+    }
+    return p;
+  };
+  const auto bytes = [&](int floor, int plate, int between) {
+    std::vector<host::Polygon> blockers;
+    if (between) blockers.push_back(polygon(between, 1, false));
+    const host::FixedScene scene = host::FixedScene::of_polygons(
+        {polygon(floor, 0, false), polygon(plate, 2, true)}, blockers);
+    const size_t all = urad_hemicube_source_bytes(&scene.pod(), 32, 8, 0);
+    static constexpr auto cells = urad::make_hemicube_table<32>();
+    const urad_hemicube_table table{32, cells.top, cells.side};
+    std::vector<uint64_t> memory(all / 8 + 1);
+    urad_source source{};
+    urad_counters counters{};
+    const auto init = [&](size_t room) {
+      return urad_hemicube_source_init(&source, &scene.pod(), &table, 8, 0, &counters,
+                                       memory.data(), room);
+    };
+    CHECK(init(all - 1) == URAD_OUT_OF_MEMORY);
+    REQUIRE(init(all) == URAD_OK);
+    uint32_t f = 0;
+    CHECK(source.fill(source.context, 0, 1, 1, 1, &f) == URAD_OK);
+    CHECK((f == 0) == (between != 0));
+    return all;
+  };
+  const size_t four = bytes(4, 3, 0);
+  CHECK(bytes(4, 7, 0) == four + 3 * sizeof(urad_point));
+  CHECK(bytes(9, 7, 4) == four + 5 * sizeof(urad_point));
+  CHECK(bytes(4, 3, 12) == four + 8 * sizeof(urad_point));
 }

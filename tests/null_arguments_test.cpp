@@ -90,12 +90,12 @@ TEST_CASE("null arguments of sources, and memory that is too small or misaligned
   Room room;
   const urad_pose_table poses{};
   void* const memory = room.memory.data();
-  NULL_IN_TURN(urad_pair_source_init, URAD_BAD_ARGUMENT, (Optional{3, 6}), &room.source, room.scene,
-               1, &urad_cube7, 0, &room.counters, memory, room.bytes);
-  NULL_IN_TURN(urad_pose_source_init, URAD_BAD_ARGUMENT, (Optional{4}), &room.source, room.scene,
+  NULL_IN_TURN(urad_pair_source_init, URAD_BAD_ARGUMENT, Optional{3}, &room.source, room.scene, 1,
+               &urad_cube7, 0, &room.counters, memory, room.bytes);
+  NULL_IN_TURN(urad_pose_source_init, URAD_BAD_ARGUMENT, Optional{}, &room.source, room.scene,
                &poses, &room.counters, memory, room.bytes);
-  NULL_IN_TURN(urad_hemicube_source_init, URAD_BAD_ARGUMENT, (Optional{6}), &room.source,
-               room.scene, &room.table, 0, 0, &room.counters, memory, room.bytes);
+  NULL_IN_TURN(urad_hemicube_source_init, URAD_BAD_ARGUMENT, Optional{}, &room.source, room.scene,
+               &room.table, 0, 0, &room.counters, memory, room.bytes);
   for (const urad_hemicube_table& bad :
        {urad_hemicube_table{16, nullptr, room.side.data()},
         urad_hemicube_table{16, room.top.data(), nullptr},
@@ -198,6 +198,10 @@ TEST_CASE("an item buffer that is kept for no row, and cells outside of it, are 
   CHECK(init(nullptr, room.scene, 4, &room.counters) == Status::bad_argument);
   CHECK(init(&cells, nullptr, 4, &room.counters) == Status::bad_argument);
   CHECK(init(&cells, room.scene, 4, nullptr) == Status::bad_argument);
+  for (const urad::HemicubeTable& half : {urad::HemicubeTable{16, nullptr, room.side.data()},
+                                          urad::HemicubeTable{16, room.top.data(), nullptr}})
+    CHECK(urad::hemicube_init(&cells, room.scene, half, 4, 0, room.memory.data(), room.bytes,
+                              &room.counters) == Status::bad_argument);
   REQUIRE(init(&cells, room.scene, 0, &room.counters) == Status::ok);
   CHECK(urad::hemicube_items(&cells, 0, 0, 0) == Status::bad_argument);
   REQUIRE(init(&cells, room.scene, 4, &room.counters) == Status::ok);
@@ -238,8 +242,10 @@ TEST_CASE("null arguments of the solver and of light that changes") {
   CHECK(urad_radiosity_get(&room.state, 54, 0, &b) == URAD_BAD_ARGUMENT);
   CHECK(urad_radiosity_get(&room.state, 0, 3, &b) == URAD_BAD_ARGUMENT);
   std::vector<std::uint32_t> kept(URAD_RELIGHT_BYTES(54) / 4);
+  auto* const wall = const_cast<urad_material*>(room.scene->material);
   CHECK(urad_radiosity_set_emission(&room.state, 0, dark) ==
         URAD_BAD_ARGUMENT);  // nothing kept yet
+  CHECK(urad_radiosity_set_reflectance(&room.state, wall, grey) == URAD_BAD_ARGUMENT);
   NULL_IN_TURN(urad_radiosity_relight_init, URAD_BAD_ARGUMENT, Optional{}, &room.state,
                static_cast<void*>(kept.data()), kept.size() * 4);
   CHECK(urad_radiosity_relight_init(&room.state, kept.data(), kept.size() * 4 - 1) ==
@@ -256,9 +262,7 @@ TEST_CASE("null arguments of the solver and of light that changes") {
   NULL_IN_TURN(urad_radiosity_set_reflectance, URAD_BAD_ARGUMENT, Optional{}, &room.state,
                &stranger, static_cast<const std::uint16_t*>(grey));
   CHECK(urad_radiosity_set_reflectance(&room.state, &stranger, grey) == URAD_BAD_ARGUMENT);
-  CHECK(urad_radiosity_set_reflectance(&room.state,
-                                       const_cast<urad_material*>(room.scene->material),
-                                       beyond) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_set_reflectance(&room.state, wall, beyond) == URAD_BAD_ARGUMENT);
 }
 
 TEST_CASE("null grids and lights") {
