@@ -153,6 +153,31 @@ TEST_CASE(
         uint32_t(shooters * (scene.patch_count - 1)));
 }
 
+TEST_CASE("a repair scales the factors of a hybrid, up to 1") {
+  for (const char* name : {"cube7", "cornell"}) {
+    CAPTURE(name);
+    host::FixedScene fixed(host::load_scene(name));
+    const urad_scene& scene = fixed.pod();
+    const bool convex = scene.flags & URAD_SCENE_CONVEX;
+    const uint8_t flags = urad::hemicube_turned | (convex ? 0 : urad::hemicube_coverage);
+    Sources sources(scene, 32, 0, flags);
+    const std::vector<uint32_t> plain = sources.hybrid_row(5);
+    const auto brightest =
+        std::size_t(std::max_element(plain.begin(), plain.end()) - plain.begin());
+    std::vector<double> scale(scene.patch_count, 1.5);
+    scale[5] = 0.5, scale[brightest] = 1e6;
+    fixed.set_scale(scale);
+    Sources repaired(scene, 32, 0, flags);
+    const std::vector<uint32_t> scaled = repaired.hybrid_row(5);
+    for (std::size_t k = 0; k < plain.size(); ++k) {
+      if (k == brightest) continue;
+      CHECK(std::fabs(scaled[k] - 0.75 * plain[k]) <= 1 + 2e-5 * plain[k]);
+    }
+    // A fraction of all that is seen: saturated factors stay below it.
+    CHECK(scaled[brightest] > 0xFFFF0000u * 0.5);
+  }
+}
+
 TEST_CASE("bad arguments are refused") {
   const host::FixedScene cube(host::load_scene("cube7")), box(host::load_scene("cornell"));
   urad_counters counters{};
