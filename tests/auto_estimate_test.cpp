@@ -71,7 +71,8 @@ TEST_CASE("squares face to face, where all points of a sum see the same, are no 
   const host::NetChoice nets{[](const std::string&) { return &urad_general; }};
   for (const double wanted : {0.1, 0.05, 0.02, 0.01, 0.003}) {
     const auto method = host::pair_method({"auto", std::to_string(wanted)}, nets);
-    for (double gap = 0.01; gap < 1; gap *= 1.1) {
+    for (int k = 0; k < 49; ++k) {
+      const double gap = 0.01 * std::pow(1.1, k);  // up to 0.97
       const host::PolygonPair pair = plates(gap);
       const host::Estimate factor = method.run(pair.p, pair.q).estimate;
       const double error = std::fabs(factor.f / host::reference_form_factor(pair.p, pair.q) - 1);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -15,6 +16,7 @@
 #include "scene/fixed_scene.hpp"
 #include "solve/scene_solver.hpp"
 #include "urad/cheapest.hpp"
+#include "urad/lambert.hpp"
 #include "weights/general.h"
 
 namespace {
@@ -158,6 +160,58 @@ TEST_CASE("the points of a sum are those of its rules: one, four, nine, eighteen
   CHECK(pairs[int(urad::Way::point)] > 0);
   CHECK(pairs[int(urad::Way::four_points)] > 0);
   CHECK(pairs[int(urad::Way::refined)] > 0);
+}
+
+TEST_CASE("a way that is asked for by itself gives what the search finds on it") {
+  std::size_t pairs[urad::kWays] = {};
+  for (const host::TrialFamily& family : host::trial_families()) {
+    const host::PairSet set = test_pairs(family, 25);
+    for (const host::PolygonPair& pair : set.pairs) {
+      const host::FixedScene fixed = scene_of(pair);
+      const urad_scene& scene = fixed.pod();
+      const urad::Patch p = urad::patch_at(scene, 0), q = urad::patch_at(scene, 1);
+      for (const double error : {0.3, 0.03, 0.003}) {
+        const Answer found = answer(fixed, error, &urad_general);
+        std::int32_t log2_g_q24 = 0;
+        urad::PairTraits traits;
+        if (found.way == urad::Way::none) continue;
+        ++pairs[int(found.way)];
+        if (found.way == urad::Way::refined) {
+          // One of its stops, and the first of them are the nine points.
+          std::array<urad::RefinedStop, urad::kMostRefinedCells> stop;
+          const int stops = urad::refined_stops(scene, p, q, stop.data(), int(stop.size()));
+          REQUIRE(stops > 0);
+          CHECK(std::any_of(stop.begin(), stop.begin() + stops, [&](const urad::RefinedStop& s) {
+            return s.log2_exchange_q24 == found.log2_g_q24;
+          }));
+          CHECK(urad::refined_stops(scene, p, q, stop.data(), 1) == 1);
+          CHECK(urad::exchange_by(scene, p, q, urad::Way::nine_points, nullptr, &log2_g_q24,
+                                  &traits));
+          CHECK(stop[0].log2_exchange_q24 == log2_g_q24);
+          continue;
+        }
+        CHECK(urad::exchange_by(scene, p, q, found.way, &urad_general, &log2_g_q24, &traits));
+        CHECK(log2_g_q24 == found.log2_g_q24);
+        CHECK_FALSE(
+            urad::exchange_by(scene, p, q, urad::Way::network, nullptr, &log2_g_q24, &traits));
+      }
+    }
+  }
+  for (const urad::Way way : {urad::Way::kernel, urad::Way::network, urad::Way::point,
+                              urad::Way::four_points, urad::Way::refined})
+    CHECK(pairs[int(way)] > 0);
+  // Back to back: nothing by any way.
+  const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
+  const host::Polygon below{{{0, 0, -1}, {0, 1, -1}, {1, 1, -1}, {1, 0, -1}}, {}};
+  const host::FixedScene apart = scene_of({floor, below});
+  const urad::Patch p = urad::patch_at(apart.pod(), 0), q = urad::patch_at(apart.pod(), 1);
+  std::int32_t log2_g_q24 = 0;
+  urad::PairTraits traits;
+  urad::RefinedStop stop;
+  CHECK_FALSE(
+      urad::exchange_by(apart.pod(), p, q, urad::Way::kernel, nullptr, &log2_g_q24, &traits));
+  CHECK(urad::refined_stops(apart.pod(), p, q, &stop, 1) == 0);
+  CHECK(urad::lambert_refined(apart.pod(), p, q, 3, 4).log2_exchange_q24 == urad::kNoExchange);
 }
 
 TEST_CASE("less error never comes cheaper, and a first vertex decides nothing but rounding") {

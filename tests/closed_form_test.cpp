@@ -151,8 +151,9 @@ TEST_CASE("closed form: all pairs of the cube of 294 patches") {
   for (int axis = 0; axis < 3; ++axis)
     for (int wall = 0; wall < 2; ++wall)
       for (int k = 0; k < 49; ++k) {
+        const int row = k / 7, column = k % 7;
         const Polygon patch = families::transformed(
-            families::rectangle(1.0 / 7, 1.0 / 7, wall, k / 7 / 7.0, k % 7 / 7.0),
+            families::rectangle(1.0 / 7, 1.0 / 7, wall, row / 7.0, column / 7.0),
             [=](const Vec3& x) {
               Vec3 turned;
               for (int c = 0; c < 3; ++c) turned[(axis + 1 + c) % 3] = x[c];

@@ -93,6 +93,7 @@ TEST_CASE("sizes, null pointers and shifts out of range are bad nets") {
   };
   CHECK(urad::network_check(nullptr) == urad::Status::bad_net);
   CHECK(bad([](OwnNet& n) { n.net.abi = 2; }));
+  CHECK(bad([](OwnNet& n) { n.net.reserved = 1; }));
   CHECK(bad([](OwnNet& n) { n.net.inputs = 0; }));
   CHECK(bad([](OwnNet& n) { n.net.inputs = URAD_NET_MAX_INPUTS + 1; }));
   CHECK(bad([](OwnNet& n) { n.net.hidden = 0; }));

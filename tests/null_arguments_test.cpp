@@ -11,6 +11,7 @@
 #include "scene/fixed_scene.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/hybrid.hpp"
+#include "urad/move.h"
 #include "urad/urad.h"
 #include "weights/cube7.h"
 
@@ -115,6 +116,8 @@ TEST_CASE("null arguments of sources, and memory that is too small or misaligned
   CHECK(pairs(memory, urad_pair_source_bytes()) == URAD_OK);
   NULL_IN_TURN(urad_pair_source_worth, URAD_BAD_ARGUMENT, Optional{}, &room.source, 1u << 26, 2);
   CHECK(urad_pair_source_worth(&room.source, 1u << 26, 7) == URAD_BAD_ARGUMENT);
+  const urad_source empty{room.source.fill, nullptr};
+  CHECK(urad_pair_source_worth(&empty, 1u << 26, 2) == URAD_BAD_ARGUMENT);
   const urad_source stranger{urad_fill{}, memory};
   CHECK(urad_pair_source_worth(&stranger, 1u << 26, 2) == URAD_BAD_ARGUMENT);
   const std::size_t hemicube = urad_hemicube_source_bytes(room.scene, 16, 4, 0);
@@ -286,4 +289,46 @@ TEST_CASE("null grids and lights") {
   CHECK(urad_light_mix(&light, 32768, 1, radiosity) == URAD_BAD_ARGUMENT);
   light.basis = nullptr;
   CHECK(urad_light_mix(&light, 1, 1, radiosity) == URAD_BAD_ARGUMENT);
+}
+
+TEST_CASE("null arguments of geometry that moves, and boxes that are none") {
+  Room room;
+  room.start();
+  urad_grid grid{};
+  urad_point vertex[4] = {};
+  urad_blocker blocker{};
+  urad_bounds bounds{};
+  NULL_IN_TURN(urad_blocker_make, URAD_BAD_ARGUMENT, Optional{},
+               static_cast<const urad_grid*>(&grid), vertex, &blocker);
+  NULL_IN_TURN(urad_bounds_fit, URAD_BAD_ARGUMENT, Optional{}, &bounds, 1,
+               static_cast<const urad_blocker*>(&blocker));
+  urad_move move{};
+  move.patch_count = 9;
+  CHECK(urad_radiosity_move_begin(nullptr, &move) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_move_begin(&room.state, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_move_end(&room.state, &move, nullptr, nullptr) ==
+        URAD_BAD_ARGUMENT);  // nothing was begun
+  const std::int32_t most = URAD_COORDINATE_MAX;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const auto& [low, high] :
+         {std::pair{-most - 1, 0}, std::pair{0, most + 1}, std::pair{1, 0}}) {
+      urad_move bad = move;
+      bad.box_count = 1;
+      const auto set = [axis](urad_point* p, std::int32_t x) {
+        (axis == 0 ? p->x : axis == 1 ? p->y : p->z) = x;
+      };
+      set(&bad.box[0].low, low), set(&bad.box[0].high, high);
+      CHECK(urad_radiosity_move_begin(&room.state, &bad) == URAD_BAD_ARGUMENT);
+    }
+  }
+  REQUIRE(urad_radiosity_move_begin(&room.state, &move) == URAD_OK);
+  const urad_source unfilled{nullptr, nullptr};
+  CHECK(urad_radiosity_move_end(nullptr, &move, nullptr, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_move_end(&room.state, nullptr, nullptr, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_move_end(&room.state, &move, nullptr, &unfilled) == URAD_BAD_ARGUMENT);
+  urad_scene other = *room.scene;
+  other.patch_count = 53;
+  CHECK(urad_radiosity_move_end(&room.state, &move, &other, nullptr) == URAD_BAD_ARGUMENT);
+  CHECK(urad_radiosity_move_end(&room.state, &move, nullptr, nullptr) == URAD_OK);
+  CHECK(urad_radiosity_audit(&room.state, nullptr) == 1);
 }

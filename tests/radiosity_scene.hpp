@@ -86,11 +86,11 @@ struct TableScene {
   void fill_cube() {
     const int m = int(std::lround(std::sqrt(each()))), n = patches();
     const auto centre = [m, this](int i) {
-      const int axis = i / each() / 2, k = i % each();
+      const int axis = i / each() / 2, k = i % each(), u = k % m, v = k / m;
       Eigen::Vector3d x;
       x[axis] = i / each() % 2;
-      x[(axis + 1) % 3] = (k % m + 0.5) / m;
-      x[(axis + 2) % 3] = (k / m + 0.5) / m;
+      x[(axis + 1) % 3] = (u + 0.5) / m;
+      x[(axis + 2) % 3] = (v + 0.5) / m;
       return x;
     };
     const auto normal = [this](int i) -> Eigen::Vector3d {

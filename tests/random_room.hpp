@@ -1,7 +1,8 @@
 // A closed box as OBJ text: random sides, cuts, place and turn; six printed decimals, like
 // exporters write.
 #pragma once
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
@@ -26,25 +27,21 @@ inline RandomRoom random_room(std::mt19937& random, double scale, int finer = 1)
       glm::normalize(glm::dquat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
   RandomRoom room;
   room.obj = "mtllib room.mtl\n";
-  char line[200];
   for (int k = 0; k < 8; ++k) {
     const glm::dvec3 corner(k & 1 ? side.x : 0, k & 2 ? side.y : 0, k & 4 ? side.z : 0);
     const glm::dvec3 x = scale * (place + turn * corner);
-    std::snprintf(line, sizeof line, "v %.6e %.6e %.6e\n", x.x, x.y, x.z);
-    room.obj += line;
+    room.obj += fmt::format("v {:.6e} {:.6e} {:.6e}\n", x.x, x.y, x.z);
   }
   const char* const faces[6] = {"1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4", "5 7 8 6", "1 2 4 3"};
   for (int f = 0; f < 6; ++f) {
     const int u = finer * (3 + int(random() % 7)), v = finer * (3 + int(random() % 7));
-    std::snprintf(line, sizeof line, "# grid %d %d\nusemtl %s\nf %s\n", u, v,
-                  f < 5 ? "wall" : "lamp", faces[f]);
-    room.obj += line;
+    room.obj +=
+        fmt::format("# grid {} {}\nusemtl {}\nf {}\n", u, v, f < 5 ? "wall" : "lamp", faces[f]);
     room.patches += u * v;
   }
-  std::snprintf(line, sizeof line,
-                "newmtl wall\nKd %.3f %.3f %.3f\nnewmtl lamp\nKd 0 0 0\nKe 2 1 0.5\n",
-                uniform(0.1, 0.9), uniform(0.1, 0.9), uniform(0.1, 0.9));
-  room.mtl = line;
+  room.mtl =
+      fmt::format("newmtl wall\nKd {:.3f} {:.3f} {:.3f}\nnewmtl lamp\nKd 0 0 0\nKe 2 1 0.5\n",
+                  uniform(0.1, 0.9), uniform(0.1, 0.9), uniform(0.1, 0.9));
   return room;
 }
 

@@ -121,6 +121,8 @@ TEST_CASE("a scene with any one field out of range is refused") {
       {"fill", [](Plain& p) { p.grid.shape.fill_uq15 = 32769; }},
       {"shape of a polygon", [](Plain& p) { p.polygon[1].shape.fill_uq15 = 32769; }},
       {"centroid", [](Plain& p) { p.polygon[1].centroid.x = kFar; }},
+      {"polygons and no vertex",
+       [](Plain& p) { p.scene.vertex = nullptr, p.scene.vertex_count = 0; }},
       {"two vertices", [](Plain& p) { p.polygon[1].vertex_count = 2; }},
       {"too many vertices", [](Plain& p) { p.polygon[1].vertex_count = 65; }},
       {"loop that starts outside", [](Plain& p) { p.polygon[1].first_vertex = 7; }},
@@ -210,6 +212,13 @@ TEST_CASE("a pose table with any one field out of range is refused") {
       {"no directory", [](Table& t) { t.table.block_of = nullptr; }, URAD_BAD_SCENE},
       {"no blocks", [](Table& t) { t.table.block = nullptr; }, URAD_BAD_SCENE},
       {"no values", [](Table& t) { t.table.value_uq32 = nullptr; }, URAD_BAD_SCENE},
+      {"nothing in it",
+       [](Table& t) {
+         t.block_of[1] = URAD_POSE_NO_BLOCK;
+         t.table.block_count = 0, t.table.value_count = 0;
+         t.table.block = nullptr, t.table.value_uq32 = nullptr;
+       },
+       URAD_OK},
       {"too many values", [](Table& t) { t.table.value_count = URAD_POSE_VALUES_MAX + 1u; },
        URAD_BAD_SCENE},
       {"block outside", [](Table& t) { t.block_of[2] = 1; }, URAD_BAD_SCENE},
