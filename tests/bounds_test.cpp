@@ -69,6 +69,7 @@ TEST_CASE(
   MESSAGE("seed ", kSeed);
   std::mt19937_64 random(kSeed);
   std::vector<Polygon> blockers;
+  blockers.reserve(300);
   for (int k = 0; k < 300; ++k)
     blockers.push_back(random_polygon(random, random_place(random), 0.05, 4, 1));
   const host::FixedScene fixed = host::FixedScene::of_polygons({blockers[0]}, blockers);
@@ -157,7 +158,8 @@ TEST_CASE("the blocker of the last pair is asked first, from run to run") {
   };
   patches.push_back(square(0, 0, 0, 0.5));
   for (int k = 0; k < 9; ++k) {
-    Polygon above = square(0.3 * (k % 3) - 0.3, 0.3 * (k / 3) - 0.3, 2, 0.14);
+    const int column = k % 3 - 1, row = k / 3 - 1;
+    Polygon above = square(0.3 * column, 0.3 * row, 2, 0.14);
     std::reverse(above.outer.begin(), above.outer.end());
     patches.push_back(above);
   }

@@ -1,5 +1,6 @@
 // The program as a person meets it: exit status, one clear sentence, nothing half-written.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +161,9 @@ TEST_CASE(
     const std::string method = row.method;
     CAPTURE(method);
     const std::string out = (folder / "f.csv").string();
-    REQUIRE(urad("formfactor --scene " + in + " --method " + method + " --out " + out).status == 0);
+    const std::string wanted =
+        fmt::format("formfactor --scene {} --method {} --out {}", in, method, out);
+    REQUIRE(urad(wanted).status == 0);
     const host::CsvTable results = host::read_csv(out);
     REQUIRE(results.rows.size() == 4);
     for (std::size_t k = 0; k < 4; ++k)
@@ -200,7 +203,7 @@ TEST_CASE(
     "solve without the exact solution gives the same light, and says that nothing was compared") {
   const fs::path folder = scratch("no_exact");
   const auto solve = [&](const std::string& name, const std::string& options) {
-    const std::string path = (folder / name).string();
+    std::string path = (folder / name).string();
     const Outcome outcome = urad("solve cube7 --method fixed-moment --out " + path +
                                  ".csv --report " + path + ".json " + options);
     CAPTURE(outcome.text);

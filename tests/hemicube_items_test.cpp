@@ -126,6 +126,7 @@ TEST_CASE(
   MESSAGE("seed ", seed);
   const std::array<int, 4> resolutions = {16, 34, 64, 128};
   std::vector<std::unique_ptr<Tables>> tables;
+  tables.reserve(resolutions.size());
   for (const int r : resolutions) tables.push_back(std::make_unique<Tables>(r));
   long cells = 0, doubtful = 0, wrong = 0, hits = 0;
   for (int set = 0; set < 1000; ++set) {

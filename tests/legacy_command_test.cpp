@@ -1,5 +1,6 @@
 // legacy:NAME on the command line: pairs, scenes, files, and what is refused.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -83,7 +84,7 @@ TEST_CASE("wrong names and files are refused") {
     std::string bad = text;
     bad.replace(bad.find(from), from.size(), to);
     host::write_file_atomically(folder + "/bad.json", bad);
-    CHECK(urad("export " + folder + "/bad.json -o " + folder + "/bad.h").status == 1);
+    CHECK(urad(fmt::format("export {}/bad.json -o {}/bad.h", folder, folder)).status == 1);
     CHECK_FALSE(fs::exists(folder + "/bad.h"));
   }
 }

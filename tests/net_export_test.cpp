@@ -1,5 +1,6 @@
 // Headers from networks: names, manifest, and that both languages compile what they say.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cstdlib>
 
@@ -8,6 +9,7 @@
 #include "network/digest.hpp"
 #include "network/export.hpp"
 #include "network_file.hpp"
+#include "program.hpp"
 
 TEST_CASE("sha256 agrees with FIPS 180-2, appendix B") {
   CHECK(host::sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
@@ -54,10 +56,14 @@ TEST_CASE("C99 and C++17 compilers take the header without a word") {
         folder + "/toy_net.c",
         "#include \"toy_net.h\"\n#include \"toy_net.h\"\n"
         "const urad_net *toy(void);\nconst urad_net *toy(void) { return &urad_toy_net; }\n");
-    const std::string options = " -Wall -Wextra -Wpedantic -Wconversion -Werror -I" URAD_SOURCE_DIR
-                                "/firmware_style/include -c " +
-                                folder + "/toy_net.c -o " + folder + "/toy_net.o";
-    CHECK(std::system((URAD_CC " -std=c99" + options).c_str()) == 0);
-    CHECK(std::system((URAD_CXX " -x c++ -std=c++17" + options).c_str()) == 0);
+    const auto compiles = [&](const std::string& compiler) {
+      const std::string command = fmt::format(
+          "{} -Wall -Wextra -Wpedantic -Wconversion -Werror -I{}/firmware_style/include -c "
+          "{}/toy_net.c -o {}/toy_net.o",
+          compiler, URAD_SOURCE_DIR, folder, folder);
+      return test::runs(command);
+    };
+    CHECK(compiles(URAD_CC " -std=c99"));
+    CHECK(compiles(URAD_CXX " -x c++ -std=c++17"));
   }
 }

@@ -116,10 +116,10 @@ host::Scene room_with_box(double angle) {
   for (const auto& f : faces) face(f, 8, false);
   obj += "usemtl inside\n";
   for (const auto& f : faces) face(f, 8, true);
-  const std::string mtl =
+  constexpr const char* kMaterials =
       "newmtl lamp\nKd .5 .5 .5\nKe 9 9 9\nnewmtl wall\nKd .7 .7 .7\nnewmtl outside\nKd .6 .6 .6\n"
       "newmtl inside\nKd .9 .9 .9\n";
-  return host::parse_obj(obj, "box", {4, 0}, [&](const std::string&) { return mtl; });
+  return host::parse_obj(obj, "box", {4, 0}, [](const std::string&) { return kMaterials; });
 }
 
 }  // namespace

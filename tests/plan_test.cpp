@@ -15,6 +15,7 @@
 #include "plan/chip_bytes.hpp"
 #include "plan/constants.hpp"
 #include "plan/rehearsal.hpp"
+#include "program.hpp"
 #include "random_room.hpp"
 #include "scene/builtin.hpp"
 #include "scene/c_export.hpp"
@@ -76,7 +77,7 @@ TEST_CASE("structs take on a Cortex-M0 what the plan says") {
       "arm-none-eabi-g++ -mcpu=cortex-m0 -mthumb -std=c++17 -ffreestanding "
       "-fsyntax-only -I" URAD_SOURCE_DIR "/firmware_style/include " +
       (folder / "sizes.cpp").string();
-  CHECK(std::system(command.c_str()) == 0);
+  CHECK(test::runs(command));
 }
 
 TEST_CASE("bytes are those of the engine's functions and of the exporter") {

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "form_factor/reference.hpp"
+#include "program.hpp"
 #include "random_room.hpp"
 #include "scene/builtin.hpp"
 #include "scene/c_export.hpp"
@@ -263,9 +264,8 @@ TEST_CASE("exported tables compile as C99 and C++17 and hold the same integers")
       " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I" URAD_SOURCE_DIR
       "/firmware_style/include -o " +
       (folder / "main").string() + " " + folder.string();
-  const auto run = [](const std::string& command) { return std::system(command.c_str()) == 0; };
-  CHECK(run(URAD_CC " -std=c99 -c" + flags + "/main.c"));
-  CHECK(run(URAD_CXX " -std=c++17 " + flags + "/main.cpp " URAD_ENGINE_ARCHIVE));
-  CHECK(run((folder / "main").string()));
+  CHECK(test::runs(URAD_CC " -std=c99 -c" + flags + "/main.c"));
+  CHECK(test::runs(URAD_CXX " -std=c++17 " + flags + "/main.cpp " URAD_ENGINE_ARCHIVE));
+  CHECK(test::runs((folder / "main").string()));
   std::filesystem::remove_all(folder);
 }

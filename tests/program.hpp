@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -17,6 +18,7 @@ struct Outcome {
 
 inline Outcome urad(const std::string& arguments) {
   const std::string command = std::string(URAD_PROGRAM) + " --quiet " + arguments + " 2>&1";
+  // NOLINTNEXTLINE(cert-env33-c): the program is run as a person runs it, by a shell
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe);
   Outcome outcome;
@@ -28,9 +30,14 @@ inline Outcome urad(const std::string& arguments) {
   return outcome;
 }
 
+/// Whether a shell runs it, and it succeeds.
+inline bool runs(const std::string& command) {
+  return std::system(command.c_str()) == 0;  // NOLINT(cert-env33-c): compilers, found as make does
+}
+
 /// A folder of its own for each test case, empty at the start.
 inline std::filesystem::path scratch(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(URAD_SCRATCH_DIR) / name;
+  std::filesystem::path folder = std::filesystem::path(URAD_SCRATCH_DIR) / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

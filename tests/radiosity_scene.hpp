@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -144,6 +145,11 @@ struct TableScene {
   }
   urad_source source() { return {fill, this}; }
 };
+
+/// Whether nothing was written to a state, not even to what lies between its members.
+inline bool same_bytes(const urad_radiosity& a, const urad_radiosity& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;  // NOLINT(bugprone-suspicious-memory-comparison)
+}
 
 /// A state with memory of its own.
 struct Solve {

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 #include "radiosity_scene.hpp"
 
 using test::Solve;
@@ -305,7 +303,7 @@ TEST_CASE("init refuses and writes nothing") {
   CHECK(init(&room.pod, source, 0, 9, 1, bytes) == Status::out_of_memory);
   CHECK(init(&bright, source, 0, 9, 0, bytes) == Status::overflow);
   CHECK(memory == untouched);
-  CHECK(std::memcmp(&state, &blank, sizeof state) == 0);
+  CHECK(test::same_bytes(state, blank));
 
   CHECK(init(&room.pod, source, 0, 9, 0, bytes) == Status::ok);
   CHECK(memory.back() == 0xA5A5A5A5u);  // exactly radiosity_bytes are used

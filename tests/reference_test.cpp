@@ -69,11 +69,12 @@ std::vector<Polygon> cube(int n) {
   for (int axis = 0; axis < 3; ++axis)
     for (int wall = 0; wall < 2; ++wall)
       for (int i = 0; i < n * n; ++i) {
+        const int row = i / n, column = i % n;
         const auto corner = [&](int a, int b) {
           Vec3 x;
           x[axis] = wall;
-          x[(axis + 1) % 3] = static_cast<double>(i / n + a) / n;
-          x[(axis + 2) % 3] = static_cast<double>(i % n + b) / n;
+          x[(axis + 1) % 3] = static_cast<double>(row + a) / n;
+          x[(axis + 2) % 3] = static_cast<double>(column + b) / n;
           return x;
         };
         const Polygon patch{{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}, {}};

@@ -4,8 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 #include "radiosity_scene.hpp"
 #include "scene/builtin.hpp"
 #include "solve/repair.hpp"
@@ -185,7 +183,7 @@ TEST_CASE("a lamp switched off and on again, and what is refused") {
   CHECK(urad_radiosity_set_reflectance(&solve.state, &room.material[1], over) == URAD_BAD_ARGUMENT);
   CHECK(urad_radiosity_set_reflectance(nullptr, &room.material[1], full) == URAD_BAD_ARGUMENT);
   CHECK(solve.memory == power);
-  CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+  CHECK(test::same_bytes(before, solve.state));
 }
 
 TEST_CASE("a wall that was black reflects as from the start, in any channel") {
@@ -247,7 +245,7 @@ TEST_CASE("a source that fails while a wall is painted leaves everything as it w
     CAPTURE(call);
     room.fail_after = call;
     CHECK(paint(20000, 12000, 9000) == Status::bad_net);
-    CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+    CHECK(test::same_bytes(before, solve.state));
     CHECK(std::equal(power.begin(), power.begin() + std::ptrdiff_t(light), solve.memory.begin()));
     CHECK(room.material[2].reflectance_uq15[1] == 15000);
   }
@@ -280,7 +278,7 @@ TEST_CASE("a wall that would reflect more than a patch can hold is not painted")
   const std::uint16_t white[3] = {32768, 32768, 32768}, grey[3] = {3000, 3000, 3000};
   CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[1], white) ==
         Status::overflow);
-  CHECK(std::memcmp(&before, &solve.state, sizeof before) == 0);
+  CHECK(test::same_bytes(before, solve.state));
   CHECK(room.material[1].reflectance_uq15[0] == 0);
   CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[1], grey) == Status::ok);
   CHECK(urad::radiosity_audit(solve.state, nullptr));

@@ -144,6 +144,7 @@ TEST_CASE("a plot fills the points of the Pareto front and no others") {
 TEST_CASE("points and labels of a plot stay inside it, over ranges narrow and wide") {
   for (const double range : {1.0, 1.01, 3.0, 1e3, 1e12}) {
     std::vector<host::PlotPoint> points;
+    points.reserve(9);
     for (int k = 0; k < 9; ++k)
       points.push_back({"method " + std::to_string(k), std::pow(range, k / 8.0),
                         0.5 * std::pow(range, -k / 8.0), std::size_t(k)});

@@ -7,12 +7,11 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "program.hpp"
 #include "scene/builtin.hpp"
 #include "solve/exported_visibility.hpp"
 
 namespace {
-
-bool runs(const std::string& command) { return std::system(command.c_str()) == 0; }
 
 // A checksum over what a scene points to, in C; the same expression is evaluated here on the host's
 // own tables.
@@ -125,10 +124,10 @@ TEST_CASE(
       " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I" URAD_SOURCE_DIR
       "/firmware_style/include -o " +
       (folder / "main").string() + " " + folder.string();
-  CHECK(runs(URAD_CC " -std=c99" + flags + "/main.c"));
-  CHECK(runs((folder / "main").string()));
-  CHECK(runs(URAD_CXX " -std=c++17" + flags + "/main.cpp"));
-  CHECK(runs((folder / "main").string()));
+  CHECK(test::runs(URAD_CC " -std=c99" + flags + "/main.c"));
+  CHECK(test::runs((folder / "main").string()));
+  CHECK(test::runs(URAD_CXX " -std=c++17" + flags + "/main.cpp"));
+  CHECK(test::runs((folder / "main").string()));
   std::filesystem::remove_all(folder);
 }
 

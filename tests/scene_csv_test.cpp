@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -20,10 +20,10 @@ host::Scene read(const std::string& text) {
   std::ofstream(path) << text;
   try {
     host::Scene scene = host::load_scene(path);
-    std::remove(path.c_str());
+    std::filesystem::remove(path);
     return scene;
   } catch (...) {
-    std::remove(path.c_str());
+    std::filesystem::remove(path);
     throw;
   }
 }

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
@@ -163,10 +163,10 @@ TEST_CASE("files are read relative to the OBJ, and a missing one is named") {
   std::ofstream(folder + "scene_obj_test.obj") << text;
   CHECK(host::load_scene(folder + "scene_obj_test.obj").patches.size() == 2);
   CHECK(host::load_scene(folder + "scene_obj_test.obj", {4, 0}).patches.size() == 32);
-  std::remove((folder + "scene_obj_test.mtl").c_str());
+  std::filesystem::remove(folder + "scene_obj_test.mtl");
   CHECK_THROWS_WITH_AS(host::load_scene(folder + "scene_obj_test.obj"),
                        doctest::Contains("scene_obj_test.mtl"), host::Error);
-  std::remove((folder + "scene_obj_test.obj").c_str());
+  std::filesystem::remove(folder + "scene_obj_test.obj");
   CHECK_THROWS_WITH_AS(host::load_scene(folder + "scene_obj_test.obj"),
                        doctest::Contains("scene_obj_test.obj"), host::Error);
   CHECK_THROWS_WITH_AS(host::load_scene("no_such_scene"), doctest::Contains("cornell, cube7"),

@@ -95,6 +95,7 @@ TEST_CASE("blocks() agrees with double arithmetic but for rays within rounding o
   int blocked = 0, doubtful = 0, wrong = 0, rays = 0;
   for (int set = 0; set < 100; ++set) {
     std::vector<Polygon> blockers;
+    blockers.reserve(8);
     const double size = set % 4 == 0 ? 1e-5 : 0.4;
     const Vec middle = 0.5 * Vec{unit(random), unit(random), unit(random)};
     for (int k = 0; k < 8; ++k)
