@@ -75,7 +75,34 @@ TEST_CASE("grid_make refuses what is no grid and writes nothing") {
   CHECK(urad::grid_make(zero, x, y, 1, 0, &grid) == urad::Status::bad_argument);
   CHECK(urad::grid_make(far, x, y, 1, 1, &grid) == urad::Status::bad_argument);
   CHECK(urad::grid_make(zero, x, y, 1, 1, nullptr) == urad::Status::bad_argument);
+  // Of the four corners any one may be the only one outside.
+  const std::int32_t most = URAD_COORDINATE_MAX, half = most / 2 + 1;
+  const urad_point corner{most - half, 0, 0}, up{0, 0, 1000};
+  CHECK(urad::grid_make(corner, {half + 1, 0, 0}, up, 1, 1, &grid) == urad::Status::bad_argument);
+  CHECK(urad::grid_make(corner, up, {half + 1, 0, 0}, 1, 1, &grid) == urad::Status::bad_argument);
+  CHECK(urad::grid_make(corner, {half, 0, 0}, {half, 9, 0}, 1, 1, &grid) ==
+        urad::Status::bad_argument);
+  CHECK(urad::grid_make({most + 1, 0, 0}, {-9, 0, 0}, {-9, 9, 0}, 1, 1, &grid) ==
+        urad::Status::bad_argument);
   CHECK(grid.count_u == 42);
+  CHECK(urad::grid_make(corner, {half, 0, 0}, up, 1, 1, &grid) == urad::Status::ok);
+  CHECK(grid.count_u == 1);
+}
+
+TEST_CASE("the fill of a strip falls with its length, to the least that is told apart") {
+  const auto fill = [](std::int32_t length) {
+    urad_grid grid{};
+    REQUIRE(urad::grid_make({0, 0, 0}, {length, 0, 0}, {0, 1000, 0}, 1, 1, &grid) ==
+            urad::Status::ok);
+    return grid.shape.fill_uq15 / 32768.0;
+  };
+  CHECK(fill(1000) == doctest::Approx(1.0 / 3).epsilon(1e-4));
+  // A / (A + 12 tr M) with 12 tr M = a a + b b.
+  for (const double ratio : {3.0, 30.0, 300.0})
+    CHECK(std::fabs(fill(std::int32_t(1000 * ratio)) - ratio / (ratio + ratio * ratio + 1)) <
+          1.0 / 32768);
+  CHECK(fill(100000000) == fill(5000000));
+  CHECK(fill(100000000) == 16.0 / 32768);
 }
 
 TEST_CASE("a grid made on the chip passes the scene check and enumerates its patches") {

@@ -327,3 +327,24 @@ TEST_CASE("between near patches: what grows lets less through, as sampling says"
     before = seen;
   }
 }
+
+TEST_CASE("numbers of rays and cuts out of range are the nearest that are in it") {
+  Room room({square(0, 1, 0, true), square(0, 1, 1, false)}, {square(0.1, 0.6, 0.5, true)});
+  CHECK(room.fraction(0, 1, 0) == room.fraction(0, 1, 1));
+  CHECK(room.fraction(0, 1, 5000) == room.fraction(0, 1, urad::kMaxRays));
+  CHECK(room.fraction(0, 1, urad::kMaxRays) != room.fraction(0, 1, 1));
+  // Far enough apart to be cut.
+  Room far({square(0, 1, 0, true), square(0, 1, 4, false)}, {square(0.1, 0.6, 2, true)});
+  const urad_scene& scene = far.fixed.pod();
+  const auto adaptive = [&](std::uint16_t rays, std::uint8_t depth) {
+    const urad::AdaptiveRays plan{rays, depth, 1u << 8};
+    return urad::adaptive_fraction_uq16(scene, urad::patch_at(scene, 0), urad::patch_at(scene, 1),
+                                        plan, 1u << 27, &far.counters);
+  };
+  CHECK(adaptive(0, 2) == adaptive(4, 2));
+  CHECK(adaptive(2000, 1) == adaptive(256, 1));
+  CHECK(adaptive(16, 200) == adaptive(16, urad::kMaxDepth));
+  CHECK(adaptive(16, 0) != adaptive(16, urad::kMaxDepth));
+  for (const std::uint16_t rays : {std::uint16_t{4}, std::uint16_t{64}})
+    CHECK(adaptive(rays, 4) / 65536.0 == doctest::Approx(far.fraction(0, 1, 1024)).epsilon(0.25));
+}

@@ -229,8 +229,7 @@ bool clipped_shape(const urad_scene& scene, const Patch& patch, const urad_point
   shape->log2_spread_q24 = log2_q24(uint64_t(trace)) + (12 << 24) - lift * (1 << 25);
   for (int k = 0; k < 6; ++k) shape->spread_q15[k] = int16_t(ratio(spread[k], uint64_t(trace), 15));
   const int32_t log2_ratio_q24 = shape->log2_spread_q24 - shape->log2_area_q24;
-  constexpr uint32_t thin = uint32_t{1}
-                            << 27;  // tr M / A in UQ12.20 beyond which the fill is 0 anyway
+  constexpr uint32_t thin = uint32_t{1} << 27;  // tr M / A at most, UQ12.20: the fill is then 2^-11
   const uint32_t ratio_uq20 = exp2_uq(log2_ratio_q24, 20);
   shape->fill_uq15 =
       uint16_t(exp2_uq(-log2_1p_q24((ratio_uq20 < thin ? ratio_uq20 : thin) * 12, 20), 15));

@@ -89,7 +89,7 @@ Status grid_make(const urad_point& origin, const urad_point& step_u, const urad_
   shape.log2_spread_q24 = log2_sum_q24 - log2_12_q24;
   put_spread(step_u, step_v, log2_sum_q24, shape.spread_q15);
   const uint32_t thin_uq20 = exp2_uq(log2_sum_q24 - shape.log2_area_q24, 20);
-  constexpr uint32_t most = uint32_t{1} << 31;  // 12 tr M / A beyond which the fill is 0 anyway
+  constexpr uint32_t most = uint32_t{1} << 31;  // 12 tr M / A at most: the fill is then 2^-11
   shape.fill_uq15 = uint16_t(exp2_uq(-log2_1p_q24(thin_uq20 < most ? thin_uq20 : most, 20), 15));
   *grid = {origin, step_u, step_v, count_u, count_v, shape};
   return Status::ok;
