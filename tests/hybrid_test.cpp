@@ -153,6 +153,21 @@ TEST_CASE(
         uint32_t(shooters * (scene.patch_count - 1)));
 }
 
+TEST_CASE("a hybrid that looks at every pair behind a wall finds what it skips") {
+  const host::FixedScene fixed(host::load_scene("cornell"));
+  const urad_scene& scene = fixed.pod();
+  Sources sources(scene, 32, 0, urad::hemicube_turned | urad::hemicube_coverage);
+  for (uint16_t shooter = 0; shooter < scene.patch_count; shooter = uint16_t(shooter + 61)) {
+    sources.hybrid.skips_off = 0;
+    sources.hybrid.shooter = -1;
+    const std::vector<uint32_t> skipped = sources.hybrid_row(shooter);
+    sources.hybrid.skips_off = urad::skip_off_behind;
+    sources.hybrid.shooter = -1;
+    CHECK(sources.hybrid_row(shooter) == skipped);
+  }
+  CHECK(sources.counters.skipped_behind > 0);
+}
+
 TEST_CASE("a repair scales the factors of a hybrid, up to 1") {
   for (const char* name : {"cube7", "cornell"}) {
     CAPTURE(name);

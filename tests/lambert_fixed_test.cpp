@@ -325,6 +325,13 @@ TEST_CASE(
     return urad::lambert_refined(scene.pod(), i, j, points, 0).log2_trait_q8[urad::sum_slope] /
            256.0;
   };
+  const auto sums = [&](int halvings) {
+    return urad::lambert_refined(scene.pod(), i, j, 3, halvings).point_sums;
+  };
+  CHECK(sums(0) == 9);
+  CHECK(sums(4) == 9 + 4 * 18);
+  CHECK(sums(1000) <= 9 + 18 * urad::kMostRefinedCells);
+  CHECK(sums(1000) == sums(500));
   CHECK(slope(1) == -24);
   // The factor falls to a small part over the floor: its differences are of its own size.
   CHECK(std::fabs(slope(2)) < 2);

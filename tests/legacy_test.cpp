@@ -197,7 +197,7 @@ TEST_CASE("scenes of triangles, and damaged networks, are refused") {
                   host::Error);
   urad::LegacySource source;
   urad_counters counters{};
-  std::int32_t memory[20];
+  std::int32_t memory[21];
   const host::FixedScene cube(host::load_scene("cube7"));
   CHECK(urad::legacy_init(&source, &cube.pod(), &good.pod(), 0, &counters, memory,
                           urad::legacy_bytes(5)) == urad::Status::ok);
@@ -242,6 +242,34 @@ TEST_CASE("weights of any number of fraction bits: what reaches too far is refus
   CHECK(checked(24, 16 << 23, URAD_LEGACY_LOG | URAD_LEGACY_PROVEN) == Status::bad_net);
   CHECK(checked(24, INT32_MAX, URAD_LEGACY_LOG) == Status::bad_net);
   CHECK(checked(0, 0, URAD_LEGACY_LOG) == Status::bad_net);
+}
+
+TEST_CASE("a network of the report is not asked of pairs that do not face each other") {
+  const host::LegacyFixed net(host::round_legacy(random_net(5, host::LegacyScaling::linear, 1)));
+  const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
+  const host::Polygon facing{{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {}};
+  const host::Polygon turned{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, {}};
+  const host::Polygon plate{{{-1, -1, 0.5}, {2, -1, 0.5}, {2, 2, 0.5}, {-1, 2, 0.5}}, {}};
+  const auto asked = [&](const host::Polygon& other, std::uint16_t shooter, std::uint16_t rays) {
+    const host::FixedScene scene = host::FixedScene::of_polygons({floor, other}, {plate});
+    urad::LegacySource source;
+    urad_counters counters{};
+    std::vector<std::int32_t> memory(20);
+    REQUIRE(urad::legacy_init(&source, &scene.pod(), &net.pod(), rays, &counters, memory.data(),
+                              80) == urad::Status::ok);
+    std::uint32_t f = 99;
+    const auto to = std::uint16_t(1 - shooter);
+    CHECK(urad::legacy_fill(&source, shooter, to, to, 1, &f) == URAD_OK);
+    CHECK(counters.evaluated + counters.skipped_facing == 1);
+    CHECK((counters.skipped_facing == 0 || f == 0));
+    return std::pair{f, counters.evaluated};
+  };
+  for (const std::uint16_t shooter : {std::uint16_t{0}, std::uint16_t{1}}) {
+    CHECK(asked(turned, shooter, 0).second == 0);
+    CHECK(asked(facing, shooter, 0).first > 0);  // without rays nothing is in the way
+    CHECK(asked(facing, shooter, 64).first == 0);
+    CHECK(asked(facing, shooter, 64).second == 1);
+  }
 }
 
 TEST_CASE("a repair scales what a network of the report says, up to 1") {

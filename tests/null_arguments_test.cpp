@@ -214,6 +214,7 @@ TEST_CASE("an item buffer that is kept for no row, and cells outside of it, are 
   CHECK(urad::hemicube_items(&cells, 0, 5, 0) == Status::bad_argument);
   CHECK(urad::hemicube_items(&cells, 0, 0, 16) == Status::bad_argument);
   CHECK(urad::hemicube_items(&cells, 0, 4, 14) == Status::ok);  // a band that the face ends
+  CHECK(urad::hemicube_items(&cells, 0, 0, 4) == Status::ok);
   CHECK(urad::hemicube_render(nullptr, 0) == Status::bad_argument);
   urad::HybridSource hybrid{};
   CHECK(urad::hybrid_init(nullptr, &cells, urad::Kernel::moment, nullptr, 16, 0) ==
@@ -322,6 +323,12 @@ TEST_CASE("null arguments of geometry that moves, and boxes that are none") {
     }
   }
   REQUIRE(urad_radiosity_move_begin(&room.state, &move) == URAD_OK);
+  std::vector<std::uint32_t> kept(URAD_RELIGHT_BYTES(54) / 4);
+  const std::uint16_t grey[3] = {9, 9, 9};
+  REQUIRE(urad_radiosity_relight_init(&room.state, kept.data(), kept.size() * 4) == URAD_OK);
+  CHECK(urad_radiosity_set_reflectance(&room.state,
+                                       const_cast<urad_material*>(room.scene->material),
+                                       grey) == URAD_BAD_ARGUMENT);  // not while something moves
   const urad_source unfilled{nullptr, nullptr};
   CHECK(urad_radiosity_move_end(nullptr, &move, nullptr, nullptr) == URAD_BAD_ARGUMENT);
   CHECK(urad_radiosity_move_end(&room.state, nullptr, nullptr, nullptr) == URAD_BAD_ARGUMENT);

@@ -217,6 +217,31 @@ TEST_CASE("a wall that was black reflects as from the start, in any channel") {
   }
 }
 
+TEST_CASE("black channels one by one: those that stay black reflect nothing") {
+  std::mt19937 random(45);
+  TableScene room(6, 9, URAD_SCENE_CLOSED);
+  room.fill_reciprocal(random, 1);
+  test::furnish(&room);
+  for (int channel = 0; channel < 3; ++channel) {
+    CAPTURE(channel);
+    room.set(2, {0, 0, 0}, {0, 0, 0});
+    Solve solve(room);
+    std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
+    REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
+            Status::ok);
+    solve.run(0.01);
+    std::uint16_t rho[3] = {0, 0, 0};
+    rho[channel] = 20000;
+    CHECK(urad::radiosity_set_reflectance(&solve.state, &room.material[2], rho) == Status::ok);
+    for (std::uint16_t k = 18; k < 27; ++k)
+      for (int c = 0; c < 3; ++c)
+        CHECK((urad::radiosity_get(solve.state, k, c) > 0) == (c == channel));
+    CHECK(urad::radiosity_audit(solve.state, nullptr));
+    solve.run(1e-5);
+    CHECK(solve.relative_rms() < 3e-3);
+  }
+}
+
 TEST_CASE("a source that fails while a wall is painted leaves everything as it was") {
   std::mt19937 random(43);
   TableScene room(6, 9, URAD_SCENE_CLOSED);

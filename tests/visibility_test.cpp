@@ -328,6 +328,26 @@ TEST_CASE("between near patches: what grows lets less through, as sampling says"
   }
 }
 
+TEST_CASE("a blocker's normal may point to either side of it") {
+  std::mt19937_64 random(5);
+  int partly = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Polygon plate = random_polygon(random, {0.5, 0.5, 0.5}, 0.9);
+    Room room({square(0, 1, 0, true), square(0, 1, 1, false)}, {plate});
+    urad_scene other = room.fixed.pod();
+    urad_blocker blocker = other.blocker[0];
+    blocker.normal_q30 = {-blocker.normal_q30.x, -blocker.normal_q30.y, -blocker.normal_q30.z};
+    other.blocker = &blocker;
+    urad_counters counters{};
+    const double turned = urad::visible_fraction_uq16(
+        other, urad::patch_at(other, 0), urad::patch_at(other, 1), 64, true, &counters);
+    const double straight = room.fraction(0, 1, 64);
+    CHECK(turned / 65536 == straight);
+    partly += straight > 0 && straight < 1;
+  }
+  CHECK(partly > 20);
+}
+
 TEST_CASE("numbers of rays and cuts out of range are the nearest that are in it") {
   Room room({square(0, 1, 0, true), square(0, 1, 1, false)}, {square(0.1, 0.6, 0.5, true)});
   CHECK(room.fraction(0, 1, 0) == room.fraction(0, 1, 1));
