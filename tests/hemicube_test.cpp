@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "polygon_scene.hpp"
@@ -93,6 +94,31 @@ TEST_CASE(
       CHECK(whole.row(shooter) == row);
       CHECK(banded.row(shooter) == row);
     }
+  }
+}
+
+TEST_CASE(
+    "a plate over the whole half cube gets all of it, a speck at the end of the world next to "
+    "none") {
+  const Tables tables(16);
+  const auto square = [](double half, double z, bool down) {
+    const std::vector<Vec> up{
+        {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+    return down ? std::vector<Vec>(up.rbegin(), up.rend()) : up;
+  };
+  for (const uint16_t rows : {uint16_t{0}, uint16_t{16}}) {
+    CAPTURE(rows);
+    PolygonScene under(URAD_SCENE_CONVEX | URAD_SCENE_CLOSED);
+    under.add(square(1000, 0, false));
+    under.add(square(400000000, 1000, true));
+    CHECK(Hemicube(under.pod(), tables, rows, 0).row(0)[1] == 0xFFFFFFFFu);
+
+    // Two units across at 2^29: its corners are the same direction, or the next.
+    PolygonScene far(URAD_SCENE_CONVEX);
+    far.add(square(1000, 0, false));
+    far.add(square(1, 500000000, true));
+    const uint32_t seen = Hemicube(far.pod(), tables, rows, 0).row(0)[1];
+    CHECK(seen <= *std::max_element(tables.top.begin(), tables.top.end()));
   }
 }
 

@@ -337,3 +337,25 @@ TEST_CASE(
   CHECK(std::fabs(slope(2)) < 2);
   CHECK(std::fabs(slope(3)) < 2);
 }
+
+TEST_CASE("patches of the same spread, and a long one over a round one: one integer both ways") {
+  // 1 x 7 and 5 x 5: 1 + 49 = 25 + 25, so that the smaller area carries the points.
+  const host::Polygon strip{{{0, 0, 0}, {7, 0, 0}, {7, 1, 0}, {0, 1, 0}}, {}};
+  const host::Polygon square{{{0, 0, 2}, {0, 5, 2}, {5, 5, 2}, {5, 0, 2}}, {}};
+  // Less spread than the plate, and yet it reaches further.
+  const host::Polygon rod{
+      {{-1.035, -0.01, 0}, {1.035, -0.01, 0}, {1.035, 0.01, 0}, {-1.035, 0.01, 0}}, {}};
+  const host::Polygon plate{
+      {{-0.9, -0.9, 0.1}, {-0.9, 0.9, 0.1}, {0.9, 0.9, 0.1}, {0.9, -0.9, 0.1}}, {}};
+  for (const auto& [p, q] : {std::pair{strip, square}, std::pair{rod, plate}}) {
+    const double exact = host::reference_exchange(p, q);
+    for (const int points : {2, 3, 4}) {
+      const host::FixedScene scene = host::FixedScene::of_polygons({p, q}, {});
+      const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
+      const std::int32_t there = urad::lambert_exchange_log2_q24(scene.pod(), i, j, points);
+      CHECK(there == urad::lambert_exchange_log2_q24(scene.pod(), j, i, points));
+      const double units = scene.units_per_length();
+      CHECK(std::exp2(there / 0x1p24) / (units * units) == doctest::Approx(exact).epsilon(5e-3));
+    }
+  }
+}

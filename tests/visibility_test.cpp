@@ -12,7 +12,9 @@
 
 #include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
+#include "hand_made_scene.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/form_factor.hpp"
 #include "urad/ratio.hpp"
 #include "urad/vec.hpp"
 
@@ -367,4 +369,63 @@ TEST_CASE("numbers of rays and cuts out of range are the nearest that are in it"
   CHECK(adaptive(16, 0) != adaptive(16, urad::kMaxDepth));
   for (const std::uint16_t rays : {std::uint16_t{4}, std::uint16_t{64}})
     CHECK(adaptive(rays, 4) / 65536.0 == doctest::Approx(far.fraction(0, 1, 1024)).epsilon(0.25));
+}
+
+TEST_CASE("specks in a great scene see as much of each other as if they filled it") {
+  const auto scaled = [](Polygon p, double scale) {
+    for (Vec& x : p.outer) x *= scale;
+    return p;
+  };
+  const std::vector<Polygon> pair{square(0, 1, 0, true), square(0, 1, 1, false)};
+  const Polygon plate = square(0.1, 0.6, 0.5, true);
+  Room large(pair, {plate});
+  const double expected = large.fraction(0, 1, 1024);
+  CHECK(expected > 0.2);
+  CHECK(expected < 0.9);
+  for (const double scale : {1e-3, 1e-5, 4e-6}) {
+    CAPTURE(scale);
+    // A wall that makes the scene as large as it is.
+    std::vector<Polygon> patches{scaled(pair[0], scale), scaled(pair[1], scale)};
+    patches.push_back(polygon({{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}}));
+    Room small(patches, {scaled(plate, scale)});
+    CHECK(std::fabs(small.fraction(0, 1, 1024) - expected) < 0.02);
+  }
+}
+
+TEST_CASE("more blockers than a list holds: a run over a wall sees what its pairs see one by one") {
+  // Forty lamellae between two walls of 4 x 4, each of them in reach of every pair.
+  host::Scene scene;
+  scene.name = "lamellae";
+  test::add_wall(&scene, "floor", Vec(0), Vec(1, 0, 0), Vec(0, 1, 0), 4, Vec(0.5), Vec(1));
+  test::add_wall(&scene, "ceiling", Vec(0, 0, 1), Vec(0, 1, 0), Vec(1, 0, 0), 4, Vec(0.5), Vec(0));
+  for (int k = 0; k < 40; ++k) {
+    const double x = (k + 0.5) / 40;
+    host::Blocker lamella;
+    lamella.polygon = polygon({{x, 0, 0.4}, {x + 0.004, 0, 0.6}, {x + 0.004, 1, 0.6}, {x, 1, 0.4}});
+    scene.blockers.push_back(lamella);
+  }
+  const host::FixedScene fixed(scene);
+  const urad_scene& pod = fixed.pod();
+  urad_counters counters{};
+  urad::PairSource pairs{&pod, nullptr, urad::Kernel::moment, 64, 0, &counters};
+  int partly = 0;
+  for (uint16_t shooter = 0; shooter < 16; ++shooter) {
+    uint32_t run[16];
+    REQUIRE(urad::pair_fill(&pairs, shooter, 1, 16, 16, run) == URAD_OK);
+    for (uint16_t k = 0; k < 16; ++k) {
+      const uint16_t to = uint16_t(16 + k);
+      uint32_t one = 0, open = 0;
+      REQUIRE(urad::pair_fill(&pairs, shooter, 1, to, 1, &one) == URAD_OK);
+      CHECK(run[k] == one);
+      urad::PairSource blind{&pod, nullptr, urad::Kernel::moment, 0, 0, &counters};
+      REQUIRE(urad::pair_fill(&blind, shooter, 1, to, 1, &open) == URAD_OK);
+      const double seen =
+          urad::visible_fraction_uq16(pod, urad::patch_at(pod, shooter), urad::patch_at(pod, to),
+                                      64, true, &counters, false) /
+          65536.0;
+      CHECK(std::fabs(one - open * seen) <= 1 + open * 0x1p-15);
+      partly += seen > 0 && seen < 1;
+    }
+  }
+  CHECK(partly > 100);
 }
