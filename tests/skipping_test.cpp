@@ -68,6 +68,14 @@ TEST_CASE("one skip of the pairs off: the same bits, and as much more work as it
     CHECK(all.rays == c.rays + c.rays_spared);
     CHECK(all.blocked == c.blocked);
     CHECK(all.shut_unseen == 0);
+    // Boxes and shadows of rays, and whom the ray before met.
+    for (const std::uint32_t also : {0u, std::uint32_t{urad::skip_off_blockers}}) {
+      const urad_counters whole = off(urad::skip_off_unseen | also), &part = also ? all : c;
+      CHECK(whole.tests_unseen == 0);
+      CHECK(whole.rays == part.rays);
+      CHECK(whole.blocked == part.blocked);
+      CHECK(whole.ray_tests >= part.ray_tests);
+    }
   }
 }
 
@@ -109,6 +117,7 @@ TEST_CASE("every counter of a sweep counts in one scene and not in another") {
                          Row{"rays_spared", &urad_counters::rays_spared, room, gallery},
                          Row{"blockers_rejected", &urad_counters::blockers_rejected, room, gallery},
                          Row{"shut_unseen", &urad_counters::shut_unseen, louvre, gallery},
+                         Row{"tests_unseen", &urad_counters::tests_unseen, room, gallery},
                          Row{"faces_empty", &urad_counters::faces_empty, open, closed},
                          Row{"rows_empty", &urad_counters::rows_empty, open, closed}}) {
     CAPTURE(row.name);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh WORK SCENE.h NET.h BOARD... -- instructions of the engine's parts on each emulated board, counted one by one.
-# PROGRAM: count (the default) or skips. Writes WORK/icount.json: {board: {what: {"regions": n, "mean": instructions, "worst": instructions}}}.
+# PROGRAM: count (the default) or skips, and SETTING for its second word. Writes WORK/icount.json: {board: {what: {"regions": n, "mean": instructions, "worst": instructions}}}.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$1 scene=$2 net=$3
@@ -11,7 +11,7 @@ gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o "$work/libicount.so" "$here/icoun
 
 for board in "$@"; do
   counts=$work/$board/counts.txt labels=$work/$board/labels.txt
-  EMULATOR_OPTIONS="-plugin file=$work/libicount.so,out=$counts" "$work/$board/emulate" "${PROGRAM:-count}" "$labels"
+  EMULATOR_OPTIONS="-plugin file=$work/libicount.so,out=$counts" "$work/$board/emulate" "${PROGRAM:-count}" "$labels" ${SETTING:+"$SETTING"}
   [[ $(wc -l <"$counts") == $(wc -l <"$labels") ]] || { echo "$board: regions and labels do not match"; exit 1; }
   paste "$labels" "$counts" | sed "s/^/$board\t/"
 done | awk -F'\t' '

@@ -1,5 +1,6 @@
-// skips LABELS -- rows of factors with all skips, with each one off and with all off, between region
-// marks, for the instruction counter of bench/icount. Rows of shooters spread evenly over the scene.
+// skips LABELS [SETTING] -- rows of factors with all skips, with each one off and with all off, between
+// region marks, for the instruction counter of bench/icount; or with all on and SETTING alone. Rows of
+// shooters spread evenly over the scene.
 #include URAD_SCENE_HEADER
 #include URAD_NET_HEADER
 #include "port.hpp"
@@ -44,8 +45,10 @@ struct Setting {
   uint32_t error_uq32 = 0;
 };
 
-constexpr uint32_t kAll = urad::skip_off_far | urad::skip_off_facing | urad::skip_off_same |
-                          urad::skip_off_behind | urad::skip_off_convex | urad::skip_off_blockers;
+constexpr uint32_t kBeforeRays = urad::skip_off_far | urad::skip_off_facing | urad::skip_off_same |
+                                 urad::skip_off_behind | urad::skip_off_convex |
+                                 urad::skip_off_blockers;
+constexpr uint32_t kAll = kBeforeRays | urad::skip_off_unseen;
 constexpr Setting kSettings[] = {{"on", 0, 0},
                                  {"same", urad::skip_off_same, 0},
                                  {"behind", urad::skip_off_behind, 0},
@@ -53,8 +56,11 @@ constexpr Setting kSettings[] = {{"on", 0, 0},
                                  {"far", urad::skip_off_far, 0},
                                  {"convex", urad::skip_off_convex, 0},
                                  {"blockers", urad::skip_off_blockers, 0},
+                                 {"unseen", urad::skip_off_unseen, 0},
+                                 {"before_rays", kBeforeRays, 0},
                                  {"all", kAll, 0},
                                  {"bounded", 0, 1u << 26},
+                                 {"on_64", 0, 0, kManyRays},
                                  {"all_64", kAll, 0, kManyRays},
                                  {"worth_64", 0, 0, kManyRays, 1u << 26}};
 
@@ -92,16 +98,23 @@ void lights(port::Writer& labels) {
   }
 }
 
+bool same_word(const char* a, const char* b) {
+  while (*a && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
 }  // namespace
 
 int run() {
-  char path[128];
+  char path[128], only[16];
   if (!port::word(1, path, sizeof path)) return 2;
+  const bool one = port::word(2, only, sizeof only);
   const int file = port::open(path, true);
   if (file < 0) return 1;
   port::Writer labels(file);
   bool good = true;
   for (const Setting& setting : kSettings) {
+    if (one && &setting != kSettings && !same_word(setting.label, only)) continue;
     urad::PairSource pairs = {&kScene, &URAD_NET_NAME,    urad::Kernel::moment,
                               kRays,   setting.skips_off, &g_counters};
     pairs.rays = setting.rays;
@@ -115,11 +128,14 @@ int run() {
       labels.text(setting.label).text("\n");
     }
   }
-  good = shots(labels, "solver_on", URAD_OVERSHOOT) &&
-         shots(labels, "solver_all",
-               URAD_OVERSHOOT | URAD_SKIP_OFF_CHANNEL | URAD_SKIP_OFF_BLACK | URAD_SKIP_OFF_DARK) &&
-         good;
-  lights(labels);
+  if (!one) {
+    good =
+        shots(labels, "solver_on", URAD_OVERSHOOT) &&
+        shots(labels, "solver_all",
+              URAD_OVERSHOOT | URAD_SKIP_OFF_CHANNEL | URAD_SKIP_OFF_BLACK | URAD_SKIP_OFF_DARK) &&
+        good;
+    lights(labels);
+  }
   labels.flush();
   port::close(file);
   return good && !labels.failed() ? 0 : 1;

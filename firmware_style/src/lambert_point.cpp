@@ -19,7 +19,7 @@ int64_t edge_term_q30(const urad_point& a, const urad_point& b, const urad_point
   if (c2 == 0) return 0;
   const InverseRoot root = inverse_root(c2);
   const int64_t cosine_q30 = round_shift(
-      round_shift(dot(n_q30, c.direction), 30) * int64_t{root.mantissa_uq30}, root.half);
+      round_shift(sparse_dot(n_q30, c.direction), 30) * int64_t{root.mantissa_uq30}, root.half);
   const int64_t length = int64_t(((c2 >> 30) * root.mantissa_uq30) >> root.half);
   const int64_t across = c.exponent >= 0    ? length * (int64_t{1} << c.exponent)
                          : c.exponent > -32 ? round_shift(length, -c.exponent)

@@ -147,8 +147,7 @@ urad_status pair_fill(void* pair_source, uint16_t shooter, uint16_t surface, uin
     VisibilityRow row(*exported, shooter, first);
     fill_run(source, from, side, first, count, {nullptr, &row}, f_uq32);
   } else {
-    const bool reject = !(source.skips_off & skip_off_blockers);
-    RunBlockers run(scene, from, to.grid, reject, &source.last_blocker);
+    RunBlockers run(scene, from, to.grid, source.skips_off, &source.last_blocker);
     fill_run(source, from, side, first, count, {&run, nullptr}, f_uq32);
   }
   return URAD_OK;

@@ -57,6 +57,10 @@ Scaled weight_of(const urad_shape& i, const urad_shape& j, const urad_point& r) 
   return {exp2_uq(log2_w_q24 - whole * (1 << 24), 31), int(whole) - 31};
 }
 
+bool faces(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept {
+  return sign_of_dot(i.normal_q30, r) > 0 && sign_of_dot(j.normal_q30, r) < 0;
+}
+
 int32_t log2_spread_sum_q24(const Patch& i, const Patch& j) noexcept {
   const int32_t a_q24 = i.shape->log2_spread_q24, b_q24 = j.shape->log2_spread_q24;
   return greatest(a_q24, b_q24) +
@@ -82,9 +86,17 @@ uint32_t without_rays(const Candidates& candidates, uint32_t rays,
 
 uint32_t without_a_ray(const urad_scene& scene, const Patch& i, const Patch& j) noexcept {
   uint16_t last = 0;
-  RunBlockers run(scene, i, nullptr, true, &last);
+  RunBlockers run(scene, i, nullptr, 0, &last);
   const Candidates candidates(run, j);
   return candidates.empty() && !candidates.shut() ? kAllVisible_uq16 : 0;
+}
+
+uint32_t agreed_uq16(const RayPlan& plan, const urad_scene& scene,
+                     const Brought& brought) noexcept {
+  if (brought.open) return kAllVisible_uq16;
+  const uint32_t seen_uq16 = brought.weighed ? 0 : without_a_ray(scene, plan.i, plan.j);
+  plan.counters->blocked += seen_uq16 == 0;
+  return seen_uq16;
 }
 
 uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t rays,
@@ -102,31 +114,16 @@ uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t
   const uint64_t near2 = touching ? half_spread_sum(i, j) : 0;
   const PatchSampler on_i(scene, i), on_j(scene, j);
   Sequence sequence(i.index, j.index);
-  Sums sums;
-  int made = 0, weighed = 0;
+  const auto make = [&](Sequence* from, urad_point* a, urad_point* b) {
+    return on_i.point(from->uq31(0), from->uq31(1), a) &&
+           on_j.point(from->uq31(2), from->uq31(3), b);
+  };
   // More tries than rays: for polygons that are sampled by rejection, and for patches of which only
   // a corner faces the other.
-  for (int tries = 16 * wanted; weighed < wanted && tries > 0; --tries) {
-    urad_point a, b;
-    sequence.advance();
-    if (!on_i.point(sequence.uq31(0), sequence.uq31(1), &a)) continue;
-    if (!on_j.point(sequence.uq31(2), sequence.uq31(3), &b)) continue;
-    ++made;
-    const urad_point r = b - a;
-    Scaled weight = weight_of(*i.shape, *j.shape, r);
-    if (weight.mantissa == 0) continue;
-    ++weighed;
-    if (!weighted) weight = {0x80000000u, 0};
-    sums.add(weight, !candidates.stop(a, b, turned, counters),
-             touching && uint64_t(dot(r, r)) < near2);
-  }
+  const RayPlan plan{i, j, &candidates, counters, turned, weighted, near2, wanted, 16 * wanted};
+  Brought brought = bring(plan, false, &sequence, make);
   counters->rays += wanted;
-  const uint32_t seen_uq16 = sums.none() ? without_a_ray(scene, i, j) : 0;
-  if (sums.all_shut()) {
-    counters->blocked += seen_uq16 == 0;
-    return seen_uq16;
-  }
-  if (sums.all_open()) return kAllVisible_uq16;
+  if (brought.agree) return agreed_uq16(plan, scene, brought);
   if (touching) {
     struct Asked {
       Candidates* candidates;
@@ -140,18 +137,18 @@ uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t
       return to.candidates->stop(a, b, to.turned, to.counters);
     };
     const NearMean mean = near_mean(i, on_i, j, on_j, near2, kFactorTries * wanted, stop, &asked);
-    const int32_t log2_made_q24 = log2_q24(uint32_t(made));
+    const int32_t log2_made_q24 = log2_q24(uint32_t(brought.made));
     const auto all = [=](int32_t x) { return x == kNoHit ? kNoHit : x + log2_made_q24; };
-    sums.add_near(all(mean.log2_open_q24), all(mean.log2_shut_q24));
+    brought.sums.add_near(all(mean.log2_open_q24), all(mean.log2_shut_q24));
   }
-  return sums.fraction_uq16();
+  return brought.sums.fraction_uq16();
 }
 
 uint32_t visible_fraction_uq16(const urad_scene& scene, const Patch& i, const Patch& j,
                                uint16_t rays, bool weighted, urad_counters* counters,
                                bool reject) noexcept {
   uint16_t last = 0;
-  RunBlockers run(scene, i, nullptr, reject, &last);
+  RunBlockers run(scene, i, nullptr, reject ? 0u : uint32_t{skip_off_blockers}, &last);
   return visible_fraction_uq16(run, j, rays, weighted, counters);
 }
 

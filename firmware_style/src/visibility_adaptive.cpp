@@ -36,36 +36,12 @@ struct Pieces {
   }
 };
 
-/// Points beside a polygon that is no parallelogram bring nothing, which is their share.
-struct Asked {
-  Sums sums;
-  int made = 0;
-};
-
-Asked ask(const Pieces& pieces, const Part& part, int rays, Sequence* sequence,
-          Candidates* candidates, bool turned, urad_counters* counters) noexcept {
-  Asked asked;
-  int weighed = 0;
-  for (int tries = (part.cuts() ? 4 : 16) * rays; weighed < rays && tries > 0; --tries) {
-    ++asked.made;
-    urad_point a, b;
-    sequence->advance();
-    if (!pieces.point(0, part, sequence->uq31(0), sequence->uq31(1), &a)) continue;
-    if (!pieces.point(1, part, sequence->uq31(2), sequence->uq31(3), &b)) continue;
-    const Scaled weight = weight_of(*pieces.patch[0]->shape, *pieces.patch[1]->shape, b - a);
-    if (weight.mantissa == 0) continue;
-    ++weighed;
-    asked.sums.add(weight, !candidates->stop(a, b, turned, counters), false);
-  }
-  counters->rays += uint32_t(rays);
-  return asked;
-}
-
-/// Adds the mean of a part's rays, times its share of both areas.
-void collect(const Part& part, const Asked& from, Sums* to) noexcept {
+/// Adds the mean of a part's rays, times its share of both areas. Points beside a polygon that is no
+/// parallelogram bring nothing, which is their share.
+void collect(const Part& part, const Brought& from, Sums* to) noexcept {
   for (int k = 0; k < 2; ++k) {
     const bool open = k != 0;
-    Scaled share = from.sums.total(open) / scaled(uint64_t(from.made));
+    Scaled share = from.sums.total(open) / scaled(uint64_t(from.tried));
     share.exponent -= 2 * part.cuts();
     to->add(share, open, false);
   }
@@ -83,7 +59,7 @@ uint32_t adaptive_fraction_uq16(const urad_scene& scene, const Patch& i, const P
                                 const AdaptiveRays& plan, uint32_t f_uq32, urad_counters* counters,
                                 bool reject) noexcept {
   uint16_t last = 0;
-  RunBlockers run(scene, i, nullptr, reject, &last);
+  RunBlockers run(scene, i, nullptr, reject ? 0u : uint32_t{skip_off_blockers}, &last);
   return adaptive_fraction_uq16(run, j, plan, f_uq32, counters);
 }
 
@@ -118,10 +94,18 @@ uint32_t adaptive_fraction_uq16(RunBlockers& run, const Patch& receiver, const A
   while (parts > 0) {
     const Part part = stack[--parts];
     const int log2_rays = part.cuts() ? log2_later : log2_first;
-    const Asked asked = ask(pieces, part, 1 << log2_rays, &sequence, &candidates, turned, counters);
-    const bool agree = asked.sums.all_open() || asked.sums.all_shut();
-    if (agree || part.cuts() == depth || f_uq32 >> (2 * part.cuts()) <= plan.error_uq32) {
-      collect(part, asked, &sums);
+    const int wanted = 1 << log2_rays;
+    const RayPlan plan_of_part{
+        i, j, &candidates, counters, turned, true, 0, wanted, (part.cuts() ? 4 : 16) * wanted};
+    const auto make = [&](Sequence* from, urad_point* a, urad_point* b) {
+      return pieces.point(0, part, from->uq31(0), from->uq31(1), a) &&
+             pieces.point(1, part, from->uq31(2), from->uq31(3), b);
+    };
+    const Brought brought = bring(plan_of_part, part.cuts() > 0, &sequence, make);
+    counters->rays += uint32_t(wanted);
+    if (brought.agree && part.cuts() == 0) return agreed_uq16(plan_of_part, scene, brought);
+    if (brought.agree || part.cuts() == depth || f_uq32 >> (2 * part.cuts()) <= plan.error_uq32) {
+      collect(part, brought, &sums);
       continue;
     }
     const int side = pieces.larger(part);

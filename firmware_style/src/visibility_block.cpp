@@ -46,7 +46,6 @@ Hit hit_at(const urad_scene& scene, const urad_blocker& blocker, const Flat& fla
 
 bool stands_across(const urad_scene& scene, const urad_blocker& blocker, const urad_point& a,
                    const urad_point& b, int side_a, int side_b) noexcept {
-  if (boxes_apart(a, b, blocker.low, blocker.high)) return false;
   const urad_point& on = scene.vertex[blocker.first_vertex];
   const int64_t d_a = sparse_dot(blocker.normal_q30, a - on),
                 d_b = sparse_dot(blocker.normal_q30, b - on);
@@ -57,7 +56,8 @@ bool stands_across(const urad_scene& scene, const urad_blocker& blocker, const u
   const bool behind_a = side_a ? side_a < 0 : d_a < 0, behind_b = side_b ? side_b < 0 : d_b < 0;
   if (behind_a == behind_b) return false;
   const int64_t share = away(d_a, side_a), whole = share + away(d_b, side_b);
-  if (whole >> 30 == 0) return true;  // along the plane, from one side to the other
+  // Along the plane, from one side to the other.
+  if (whole >> 30 == 0) return !boxes_apart(a, b, blocker.low, blocker.high);
   const int64_t along_q31 = ratio_q(share, whole, 31);
   const auto at = [=](int32_t p, int32_t q) {
     return p == q ? p : p + int32_t(round_shift((q - p) * along_q31, 31));
@@ -74,7 +74,8 @@ bool stands_across(const urad_scene& scene, const urad_blocker& blocker, const u
   };
   const int64_t bound = (int64_t{1} << greatest(log2_bound, 0)) + kOutline;
   const Hit hit = hit_at(scene, blocker, flat, u, v, within(bound));
-  if (hit != Hit::near) return hit == Hit::inside;
+  if (hit == Hit::outside || boxes_apart(a, b, blocker.low, blocker.high)) return false;
+  if (hit == Hit::inside) return true;
   const int64_t outline = ratio_q(length * kOutline, whole >> 30, 0) + kOutline;
   return hit_at(scene, blocker, flat, u, v, within(outline)) != Hit::outside;
 }

@@ -25,23 +25,24 @@ constexpr View view_of(int8_t turn, const PlaneSide& from, const PlaneSide& to) 
 
 /// What the blocker does to all that goes between two patches.
 Shadow shadow_between(const urad_scene& scene, uint16_t blocker, const View& view,
-                      const Reach& from, const Reach& to) noexcept {
+                      const Reach& from, const Reach& to, Edges* edges, uint8_t* first) noexcept {
   if (view.turn == 0) return Shadow::part;
   return shadow(scene, scene.blocker[blocker], view.turn, view.from_receiver ? to : from,
-                view.from_receiver ? from : to);
+                view.from_receiver ? from : to, edges, first);
 }
 
 }  // namespace
 
 RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const urad_grid* run,
-                         bool reject, uint16_t* last) noexcept
+                         uint32_t skips_off, uint16_t* last) noexcept
     : scene_(scene),
       shooter_(shooter),
       reach_(reach_of(scene, shooter)),
       last_(last),
-      reject_(reject),
-      known_(reject && run) {
-  if (!reject || !run) return;
+      reject_(!(skips_off & skip_off_blockers)),
+      unseen_(!(skips_off & skip_off_unseen)),
+      known_(reject_ && run) {
+  if (!known_) return;
   const Reach to = reach_of(*run);
   urad_point low = reach_.low, high = reach_.high;
   stretch(to.low, to.high, &low, &high);
@@ -50,19 +51,23 @@ RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const ur
   };
   walk_blockers(scene, missed, [&](uint16_t blocker) {
     if (missed(scene.blocker[blocker].low, scene.blocker[blocker].high)) return true;
-    known_ = list(blocker, *run, to);
+    known_ = list(blocker, to);
     return known_;
   });
 }
 
-bool RunBlockers::list(uint16_t number, const urad_grid& run, const Reach& to) noexcept {
+bool RunBlockers::list(uint16_t number, const Reach& run) noexcept {
   const urad_blocker& blocker = scene_.blocker[number];
-  Listed listed{number, plane_side(scene_, shooter_, blocker), 0};
-  const PlaneSide side = plane_side(scene_, run, blocker);
-  if (!astride(listed.side, side)) return true;
+  Listed listed{
+      number, {}, plane_side(scene_, shooter_, reach_, blocker), plane_side(scene_, run, blocker),
+      0,      0};
+  if (!astride(listed.side, listed.run)) return true;
   listed.turn = turn_of(scene_, blocker);
-  const View view = view_of(listed.turn, listed.side, side);
-  if (shadow_between(scene_, number, view, reach_, to) == Shadow::none) return true;
+  // Seen from the same end, whatever receiver of the run is the other.
+  const View view = view_of(listed.turn, listed.side, listed.run);
+  if (shadow_between(scene_, number, view, reach_, run, &listed.edges, &listed.edge) ==
+      Shadow::none)
+    return true;
   if (count_ == kListed) return false;
   listed_[count_++] = listed;
   return true;
@@ -73,6 +78,7 @@ Candidates::Candidates(RunBlockers& run, const Patch& receiver) noexcept
       receiver_(receiver),
       blocker_count_(run.scene_.blocker_count),
       rest_(run.scene_.blocker_count) {
+  if (run.known_ && run.count_ == 0) return;
   const urad_scene& scene = run.scene_;
   const Reach to = reach_of(scene, receiver);
   urad_point low = run.reach_.low, high = run.reach_.high;
@@ -85,20 +91,25 @@ Candidates::Candidates(RunBlockers& run, const Patch& receiver) noexcept
   };
   if (run.known_) {
     for (int k = 0; k < run.count_; ++k) {
-      if (!out_of_reach(run.listed_[k].blocker) && !list(run.listed_[k], to)) break;
+      if (!out_of_reach(run.listed_[k].blocker) && !list(&run.listed_[k], to)) break;
     }
   } else {
     walk_blockers(scene, missed, [&](uint16_t blocker) {
       if (out_of_reach(blocker)) return true;
       const urad_blocker& b = scene.blocker[blocker];
-      const bool more = list({blocker, plane_side(scene, run.shooter_, b),
-                              run.reject_ ? turn_of(scene, b) : int8_t{0}},
-                             to);
+      RunBlockers::Listed listed{blocker,
+                                 {},
+                                 plane_side(scene, run.shooter_, run.reach_, b),
+                                 {false, false, false},
+                                 run.reject_ ? turn_of(scene, b) : int8_t{0},
+                                 0};
+      const bool more = list(&listed, to);
       if (!more && !shut_) rest_ = blocker;
       return more;
     });
   }
   // The last to stop a ray goes first.
+  if (!run.unseen_) return;
   for (int k = 1; k < count_; ++k) {
     if (asked_[k].blocker != *run.last_) continue;
     const Asked first = asked_[0];
@@ -107,23 +118,25 @@ Candidates::Candidates(RunBlockers& run, const Patch& receiver) noexcept
   }
 }
 
-bool Candidates::list(const RunBlockers::Listed& listed, const Reach& to) noexcept {
-  const urad_blocker& blocker = run_.scene_.blocker[listed.blocker];
-  const PlaneSide side = plane_side(run_.scene_, receiver_, blocker);
-  const View view = view_of(listed.turn, listed.side, side);
-  Asked asked{
-      listed.blocker,    0, listed.side.side(), side.side(), run_.reject_ ? view.turn : int8_t{0},
-      view.from_receiver};
+bool Candidates::list(RunBlockers::Listed* listed, const Reach& to) noexcept {
+  const urad_blocker& blocker = run_.scene_.blocker[listed->blocker];
+  const PlaneSide from = listed->side;
+  const PlaneSide side =
+      listed->run.holds_for_parts() ? listed->run : plane_side(run_.scene_, receiver_, to, blocker);
+  const View view = view_of(listed->turn, from, side);
+  Asked asked{listed->blocker,    from.side(),   side.side(), run_.reject_ ? view.turn : int8_t{0},
+              view.from_receiver, listed->edges, {0, ~0u}};
   // On one side of it as a whole, though a patch may lie in its plane: nothing is stopped.
-  if (!astride(listed.side, side)) {
+  if (!astride(from, side)) {
     if (run_.reject_) return true;
     asked.side_from = asked.side_to = 1;
   } else if (run_.reject_) {
-    const Shadow cast = shadow_between(run_.scene_, listed.blocker, view, run_.reach_, to);
+    const Shadow cast = shadow_between(run_.scene_, listed->blocker, view, run_.reach_, to,
+                                       &asked.edges, &listed->edge);
     if (cast == Shadow::none) return true;
-    shut_ = cast == Shadow::all && listed.side.side() && side.side();
+    shut_ = cast == Shadow::all && from.side() && side.side();
     if (shut_) return false;
-    asked.size = coarse_size(blocker, run_.reach_, to);
+    asked.scale = coarse_scale(blocker, run_.reach_, to);
   }
   if (count_ == kListed) return false;
   asked_[count_++] = asked;
@@ -137,16 +150,22 @@ void Candidates::count(urad_counters* counters) const noexcept {
 }
 
 bool Candidates::across(const Asked& asked, const urad_point& from, const urad_point& to,
-                        const urad_point& coarse_from, const urad_point& coarse_to) const noexcept {
+                        const urad_point& coarse_from, const urad_point& coarse_to,
+                        urad_counters* counters) const noexcept {
   const urad_scene& scene = run_.scene_;
   const urad_blocker& blocker = scene.blocker[asked.blocker];
-  if (boxes_apart(from, to, blocker.low, blocker.high)) return false;
-  if (asked.turn) {
-    const bool back = asked.from_receiver;
-    const Shadow cast = ray_shadow(scene, blocker, asked.turn, asked.size,
-                                   back ? coarse_to : coarse_from, back ? coarse_from : coarse_to);
-    if (cast == Shadow::none) return false;
-    if (cast == Shadow::all && asked.side_from && asked.side_to) return true;
+  if (run_.unseen_) {
+    ++counters->tests_unseen;
+    if (boxes_apart(from, to, blocker.low, blocker.high)) return false;
+    if (asked.turn) {
+      const bool back = asked.from_receiver;
+      const Shadow cast =
+          ray_shadow(scene, blocker, asked.turn, asked.scale, asked.edges,
+                     back ? coarse_to : coarse_from, back ? coarse_from : coarse_to);
+      if (cast == Shadow::none) return false;
+      if (cast == Shadow::all && asked.side_from && asked.side_to) return true;
+    }
+    --counters->tests_unseen;
   }
   return stands_across(scene, blocker, from, to, asked.side_from, asked.side_to);
 }
@@ -158,7 +177,8 @@ bool Candidates::stop(const urad_point& a, const urad_point& b, bool turned,
   const urad_point coarse_from = coarse(from), coarse_to = coarse(to);
   for (int k = 0; k < count_; ++k) {
     ++counters->ray_tests;
-    if (!across(asked_[k], from, to, coarse_from, coarse_to)) continue;
+    if (!across(asked_[k], from, to, coarse_from, coarse_to, counters)) continue;
+    if (!run_.unseen_) return true;
     const Asked first = asked_[0];
     asked_[0] = asked_[k];
     asked_[k] = first;
@@ -168,7 +188,7 @@ bool Candidates::stop(const urad_point& a, const urad_point& b, bool turned,
   if (rest_ == blocker_count_) return false;
   bool stopped = false;
   const auto missed = [&](const urad_point& low, const urad_point& high) {
-    return boxes_apart(a, b, low, high);
+    return run_.unseen_ && boxes_apart(a, b, low, high);
   };
   walk_blockers(scene, missed, [&](uint16_t number) {
     const urad_blocker& blocker = scene.blocker[number];

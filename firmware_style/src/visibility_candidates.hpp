@@ -1,7 +1,7 @@
 // visibility_candidates.hpp -- blockers worth asking about a pair, found in two looks: once for a
 // shooter and a run of receivers, then for each pair of it.
 #pragma once
-#include "urad/source.h"
+#include "urad/form_factor.hpp"
 #include "urad/visibility.hpp"
 #include "visibility_shadow.hpp"
 
@@ -12,11 +12,11 @@ inline constexpr int kListed = 32;  ///< blockers that a list holds; more are as
 /// Blockers that may stand between a shooter and any patch of a run.
 class RunBlockers {
  public:
-  /// `run` null: nothing is known of the receivers, and every pair looks at all blockers. reject =
-  /// false: all blockers are kept, for tests. *last: the blocker that stopped the ray before; kept
-  /// up to date.
-  RunBlockers(const urad_scene& scene, const Patch& shooter, const urad_grid* run, bool reject,
-              uint16_t* last) noexcept;
+  /// `run` null: nothing is known of the receivers, and every pair looks at all blockers. skips_off:
+  /// SkipOff bits, of which those of blockers matter. *last: the blocker that stopped the ray
+  /// before; kept up to date.
+  RunBlockers(const urad_scene& scene, const Patch& shooter, const urad_grid* run,
+              uint32_t skips_off, uint16_t* last) noexcept;
 
   const urad_scene& scene() const noexcept { return scene_; }
   const Patch& shooter() const noexcept { return shooter_; }
@@ -25,18 +25,21 @@ class RunBlockers {
   friend class Candidates;
   struct Listed {
     uint16_t blocker;
-    PlaneSide side;  // of the shooter
-    int8_t turn;
+    Edges edges;          // that segments to the run may pass outside of
+    PlaneSide side, run;  // of shooter and run; `run` matters if it holds for parts
+    int8_t turn;          // of the loop
+    uint8_t edge;         // that left out the blocker for the receiver before
   };
   /// False when the list is full.
-  bool list(uint16_t blocker, const urad_grid& run, const Reach& to) noexcept;
+  bool list(uint16_t blocker, const Reach& run) noexcept;
 
   const urad_scene& scene_;
   const Patch& shooter_;
   Reach reach_;
   uint16_t* last_;
-  bool reject_;
-  bool known_;  // the list holds all that matter
+  bool reject_;  // blockers before any ray
+  bool unseen_;  // and, ray by ray, those that its box or shadow tells of
+  bool known_;   // the list holds all that matter
   int count_ = 0;
   Listed listed_[kListed];
 };
@@ -59,16 +62,18 @@ class Candidates {
  private:
   struct Asked {
     uint16_t blocker;
-    uint16_t size;              // for ray_shadow()
     int8_t side_from, side_to;  // of its plane that the whole patch lies on; 0: both
     int8_t turn;                // of the loop from the end that is looked from; 0: no look
     bool from_receiver;         // which end that is
+    Edges edges;                // for ray_shadow()
+    CoarseScale scale;          // the same
   };
   /// Whether the blocker stands between a point of the shooter and one of the receiver.
   bool across(const Asked& asked, const urad_point& from, const urad_point& to,
-              const urad_point& coarse_from, const urad_point& coarse_to) const noexcept;
+              const urad_point& coarse_from, const urad_point& coarse_to,
+              urad_counters* counters) const noexcept;
   /// False when nothing more need be asked: the list is full, or the blocker shuts off everything.
-  bool list(const RunBlockers::Listed& listed, const Reach& to) noexcept;
+  bool list(RunBlockers::Listed* listed, const Reach& to) noexcept;
 
   RunBlockers& run_;
   const Patch& receiver_;

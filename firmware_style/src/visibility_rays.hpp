@@ -2,6 +2,7 @@
 #pragma once
 #include "urad/log2.hpp"
 #include "urad/ratio.hpp"
+#include "urad/vec.hpp"
 #include "urad/visibility.hpp"
 #include "visibility_candidates.hpp"
 #include "visibility_sample.hpp"
@@ -82,8 +83,81 @@ uint32_t without_a_ray(const urad_scene& scene, const Patch& i, const Patch& j) 
 /// cos cos / r^2 times 2^60: (n_i . r)(-n_j . r) / r^4, to 2^-13. Nothing when one end looks away.
 Scaled weight_of(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept;
 
+/// Whether both ends of r look at each other: weight_of() is above 0.
+bool faces(const urad_shape& i, const urad_shape& j, const urad_point& r) noexcept;
+
 /// Where patches may touch: rho above this. Weights of points there are as great as they like.
 inline constexpr uint32_t kTouching_uq16 = 4096;
+
+/// What rays between two patches are to bring.
+struct RayPlan {
+  const Patch &i, &j;
+  Candidates* candidates;
+  urad_counters* counters;
+  bool turned;     ///< i is the receiver of the run
+  bool weighted;   ///< by cos cos / r^2
+  uint64_t near2;  ///< square of the distance below which weights are left out of the sums
+  int wanted, tries;
+};
+
+/// What they brought.
+struct Brought {
+  Sums sums;  ///< empty where the rays agree, unless asked for
+  int tried = 0, made = 0, weighed = 0;
+  bool agree = true, open = false;  ///< all that were weighed got through, or none did
+};
+
+/// The answer of a pair whose rays agree.
+uint32_t agreed_uq16(const RayPlan& plan, const urad_scene& scene, const Brought& brought) noexcept;
+
+/// Makes rays until as many are weighed as are wanted. make(sequence, &a, &b): false where there is no
+/// point. Weights matter only where rays disagree: those before the first that does are then made
+/// once more. sums_too: all are weighed at once.
+template <class Make>
+Brought bring(const RayPlan& plan, bool sums_too, Sequence* sequence, Make make) noexcept {
+  const Sequence start = *sequence;
+  Brought brought;
+  const auto add = [&](const urad_point& r, bool open) {
+    Scaled weight = weight_of(*plan.i.shape, *plan.j.shape, r);
+    if (weight.mantissa == 0) return false;
+    if (!plan.weighted) weight = {0x80000000u, 0};
+    brought.sums.add(weight, open, plan.near2 && uint64_t(dot(r, r)) < plan.near2);
+    return true;
+  };
+  urad_point r;
+  bool open = false;
+  const auto next = [&] {
+    urad_point a, b;
+    ++brought.tried;
+    sequence->advance();
+    if (!make(sequence, &a, &b)) return false;
+    ++brought.made;
+    r = b - a;
+    if (!faces(*plan.i.shape, *plan.j.shape, r)) return false;
+    open = !plan.candidates->stop(a, b, plan.turned, plan.counters);
+    ++brought.weighed;
+    return true;
+  };
+  const auto more = [&] { return brought.weighed < plan.wanted && brought.tried < plan.tries; };
+  while (brought.agree && more()) {
+    if (!next()) continue;
+    if (brought.weighed == 1) brought.open = open;
+    brought.agree = open == brought.open;
+    if (sums_too) add(r, open);
+  }
+  if (brought.agree) return brought;
+  Sequence again = start;
+  for (int left = sums_too ? 0 : brought.weighed - 1; left > 0;) {
+    urad_point a, b;
+    again.advance();
+    if (make(&again, &a, &b)) left -= add(b - a, brought.open);
+  }
+  if (!sums_too) add(r, open);
+  while (more()) {
+    if (next()) add(r, open);
+  }
+  return brought;
+}
 
 /// log2 of tr M_i + tr M_j.
 int32_t log2_spread_sum_q24(const Patch& i, const Patch& j) noexcept;

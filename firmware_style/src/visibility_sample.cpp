@@ -81,6 +81,9 @@ PatchSampler::PatchSampler(const urad_scene& scene, const Patch& patch) noexcept
     low_v_ = v < low_v_ ? v : low_v_, high_v = v > high_v ? v : high_v;
   }
   size_u_ = high_u - low_u_, size_v_ = high_v - low_v_;
+  const urad_point& n = patch.shape->normal_q30;
+  if (flat_.u(n) || flat_.v(n))
+    inverse_steep_ = inverse(scaled(uint64_t{magnitude(flat_.dropped(n))}));
 }
 
 bool PatchSampler::inside(int32_t u, int32_t v) const noexcept {
@@ -90,7 +93,11 @@ bool PatchSampler::inside(int32_t u, int32_t v) const noexcept {
     const urad_point q = patch_vertex(scene_, patch_, k);
     const int32_t pu = flat_.u(p), pv = flat_.v(p), qu = flat_.u(q), qv = flat_.v(q);
     p = q;
-    if ((pv > v) == (qv > v)) continue;
+    if ((pv > v) == (qv > v) || (u > pu && u > qu)) continue;
+    if (u < pu && u < qu) {
+      in = !in;
+      continue;
+    }
     const int64_t cross = int64_t{qu - pu} * (v - pv) - int64_t{qv - pv} * (u - pu);
     if (qv > pv ? cross > 0 : cross < 0) in = !in;
   }
@@ -103,12 +110,15 @@ bool PatchSampler::point(uint32_t x_uq31, uint32_t y_uq31, urad_point* p) const 
     const int32_t v = low_v_ + int32_t(part_q31(y_uq31, size_v_) >> 31);
     if (!inside(u, v)) return false;
     // On the plane: n.(p - origin) = 0, by the component of n that is at least 1/sqrt 3.
-    const urad_point& n = patch_.shape->normal_q30;
-    const int64_t rise = -(int64_t{flat_.u(n)} * (u - flat_.u(origin_)) +
-                           int64_t{flat_.v(n)} * (v - flat_.v(origin_)));
-    const int32_t steep = flat_.dropped(n);
-    const int64_t d = ratio_q(steep < 0 ? -rise : rise, int64_t(magnitude(steep)), 0);
-    *p = flat_.join(u, v, int32_t(flat_.dropped(origin_) + d));
+    int32_t dropped = flat_.dropped(origin_);
+    if (inverse_steep_.mantissa) {
+      const urad_point& n = patch_.shape->normal_q30;
+      const int64_t rise = -(int64_t{flat_.u(n)} * (u - flat_.u(origin_)) +
+                             int64_t{flat_.v(n)} * (v - flat_.v(origin_)));
+      const auto d = int32_t(to_q(scaled(magnitude(rise)) * inverse_steep_, 0));
+      dropped += (rise < 0) != (flat_.dropped(n) < 0) ? -d : d;
+    }
+    *p = flat_.join(u, v, dropped);
     return true;
   }
   if (kind_ == Kind::triangle && x_uq31 + y_uq31 > 0x7FFFFFFFu) {

@@ -2,6 +2,7 @@
 // from.
 #pragma once
 #include "urad/patch.hpp"
+#include "urad/ratio.hpp"
 
 namespace urad {
 
@@ -42,6 +43,7 @@ class PatchSampler {
   Kind kind_;
   urad_point origin_, along_x_, along_y_;  // any: origin_ the first vertex
   int32_t low_u_ = 0, low_v_ = 0, size_u_ = 0, size_v_ = 0;
+  Scaled inverse_steep_{0, 0};  // 1 / the dropped component of the normal; 0: the others are 0
 };
 
 /// Sobol's sequence in four dimensions, 2^16 points, moved by an offset (exclusive or) that belongs

@@ -20,15 +20,11 @@ void add(int32_t distance, PlaneSide* side) noexcept {
 /// The plane through an edge and a corner: normal of 15 bits, times 2^exponent.
 struct EdgePlane {
   urad_point normal;
-  int exponent;
 
-  EdgePlane(const urad_point& u, const urad_point& v) noexcept
-      : normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x} {
-    const int top = top_bit(magnitude(normal.x) | magnitude(normal.y) | magnitude(normal.z));
-    exponent = top > 14 ? top - 14 : 0;
-    normal = {shift_down(normal.x, exponent), shift_down(normal.y, exponent),
-              shift_down(normal.z, exponent)};
-  }
+  EdgePlane(const urad_point& u, const urad_point& v, int exponent) noexcept
+      : normal{shift_down(u.y * v.z - u.z * v.y, exponent),
+               shift_down(u.z * v.x - u.x * v.z, exponent),
+               shift_down(u.x * v.y - u.y * v.x, exponent)} {}
   int32_t height(const urad_point& w) const noexcept {
     return normal.x * w.x + normal.y * w.y + normal.z * w.z;
   }
@@ -37,26 +33,21 @@ struct EdgePlane {
 constexpr int kMargin = 3;  // bits: 24 l^2 = 3 l^2 2^3
 constexpr uint32_t kLeastSize = 64;
 
-uint32_t margin_of(const EdgePlane& plane, uint32_t l) noexcept {
-  return plane.exponent < kMargin ? ~0u : (3 * l * l) >> (plane.exponent - kMargin);
-}
-
 /// 1: all segments pass outside of the edge, -1: all inside, 0: neither is certain. l: no coordinate
 /// of a difference is greater. Of a volume of three differences, each off by a unit an axis:
 ///   their rounding            3 x sqrt 3 x 3 l^2 = 15.6 l^2, and 32 l of higher order
-///   the normal's dropped bits 3 l 2^exponent <= 6 l^2
+///   the normal's dropped bits 3 l 2^exponent <= 6 l^2, as 2^exponent <= 2 l^2 / 2^14 and l <= 2^14
 ///   rays moved by kOutline    below l^2 where a side is far
 /// together less than 24 l^2 for l >= 64.
 int side_of_edge(const urad_point& p, const urad_point& q, const Reach& from, const Reach& to,
-                 int turn, uint32_t l) noexcept {
+                 int turn, const CoarseScale& scale) noexcept {
   int all = 0;
   for (int m = 0; m < from.corners; ++m) {
     const urad_point& a = from.corner[m];
-    const EdgePlane plane(p - a, q - a);
-    const uint32_t margin = margin_of(plane, l);
+    const EdgePlane plane(p - a, q - a, scale.exponent);
     for (int n = 0; n < to.corners; ++n) {
       const int32_t height = plane.height(to.corner[n] - a);
-      if (magnitude(height) <= margin) return 0;
+      if (magnitude(height) <= scale.margin) return 0;
       const int side = (height > 0) == (turn > 0) ? 1 : -1;
       if (side == -all) return 0;
       all = side;
@@ -73,16 +64,20 @@ urad_point coarse(const urad_point& p) noexcept {
           shift_down(p.z + half, kCoarse)};
 }
 
-uint16_t coarse_size(const urad_blocker& blocker, const Reach& i, const Reach& j) noexcept {
+CoarseScale coarse_scale(const urad_blocker& blocker, const Reach& i, const Reach& j) noexcept {
   const auto along = [](int32_t low_b, int32_t high_b, int32_t low_i, int32_t high_i, int32_t low_j,
                         int32_t high_j) {
     return shift_down(greatest(high_b, greatest(high_i, high_j)), kCoarse) -
            shift_down(least(low_b, least(low_i, low_j)), kCoarse) + 1;
   };
   const urad_point &bl = blocker.low, &bh = blocker.high;
-  return uint16_t(greatest(along(bl.x, bh.x, i.low.x, i.high.x, j.low.x, j.high.x),
-                           greatest(along(bl.y, bh.y, i.low.y, i.high.y, j.low.y, j.high.y),
-                                    along(bl.z, bh.z, i.low.z, i.high.z, j.low.z, j.high.z))));
+  const auto l =
+      uint32_t(greatest(along(bl.x, bh.x, i.low.x, i.high.x, j.low.x, j.high.x),
+                        greatest(along(bl.y, bh.y, i.low.y, i.high.y, j.low.y, j.high.y),
+                                 along(bl.z, bh.z, i.low.z, i.high.z, j.low.z, j.high.z))));
+  const int exponent = greatest(top_bit(2 * l * l) - 14, 0);
+  if (l < kLeastSize || exponent < kMargin) return {0, ~0u};
+  return {exponent, 3 * l * l >> (exponent - kMargin)};
 }
 
 Reach reach_of(const urad_scene& scene, const Patch& patch) noexcept {
@@ -91,7 +86,7 @@ Reach reach_of(const urad_scene& scene, const Patch& patch) noexcept {
   reach.corners = patch.vertex_count <= 4 ? uint8_t(patch.vertex_count) : uint8_t{0};
   for (uint16_t k = 0; k < patch.vertex_count; ++k) {
     const urad_point p = patch_vertex(scene, patch, k);
-    if (k < reach.corners) reach.corner[k] = coarse(p);
+    if (k < reach.corners) reach.vertex[k] = p, reach.corner[k] = coarse(p);
     add(p, &reach);
   }
   return reach;
@@ -103,7 +98,7 @@ Reach reach_of(const urad_grid& grid) noexcept {
   reach.corners = 4;
   for (int k = 0; k < 4; ++k) {
     const urad_point p = corner_of(grid, k);
-    reach.corner[k] = coarse(p);
+    reach.vertex[k] = p, reach.corner[k] = coarse(p);
     add(p, &reach);
   }
   return reach;
@@ -118,13 +113,18 @@ PlaneSide plane_side(const urad_scene& scene, const Patch& patch,
   return side;
 }
 
-PlaneSide plane_side(const urad_scene& scene, const urad_grid& grid,
+PlaneSide plane_side(const urad_scene& scene, const Reach& grid,
                      const urad_blocker& blocker) noexcept {
   const urad_point& on = scene.vertex[blocker.first_vertex];
   PlaneSide side{false, false, true};
-  for (int k = 0; k < 4; ++k)
-    add(plane_distance(blocker.normal_q30, on, corner_of(grid, k)), &side);
+  for (int k = 0; k < grid.corners; ++k)
+    add(plane_distance(blocker.normal_q30, on, grid.vertex[k]), &side);
   return side;
+}
+
+PlaneSide plane_side(const urad_scene& scene, const Patch& patch, const Reach& reach,
+                     const urad_blocker& blocker) noexcept {
+  return reach.corners ? plane_side(scene, reach, blocker) : plane_side(scene, patch, blocker);
 }
 
 int8_t turn_of(const urad_scene& scene, const urad_blocker& blocker) noexcept {
@@ -155,36 +155,43 @@ int8_t turn_of(const urad_scene& scene, const urad_blocker& blocker) noexcept {
 }
 
 Shadow shadow(const urad_scene& scene, const urad_blocker& blocker, int turn, const Reach& from,
-              const Reach& to) noexcept {
+              const Reach& to, Edges* edges, uint8_t* first) noexcept {
   if (from.corners == 0 || to.corners == 0) return Shadow::part;
-  const uint32_t l = coarse_size(blocker, from, to);
-  if (l < kLeastSize) return Shadow::part;
+  const CoarseScale scale = coarse_scale(blocker, from, to);
+  if (scale.margin == ~0u) return Shadow::part;
   const urad_point* vertex = scene.vertex + blocker.first_vertex;
-  urad_point p = coarse(vertex[blocker.vertex_count - 1]);
   bool all = true;
+  uint16_t edge = *first;
   for (uint16_t k = 0; k < blocker.vertex_count; ++k) {
-    const urad_point q = coarse(vertex[k]);
-    const int side = side_of_edge(p, q, from, to, turn, l);
-    if (side > 0) return Shadow::none;
-    all = all && side < 0;
-    p = q;
+    if (edges->holds(edge)) {
+      const uint16_t before = uint16_t((edge ? edge : blocker.vertex_count) - 1);
+      const int side =
+          side_of_edge(coarse(vertex[before]), coarse(vertex[edge]), from, to, turn, scale);
+      if (side > 0) {
+        *first = uint8_t(edge);
+        return Shadow::none;
+      }
+      if (side < 0) edges->remove(edge);
+      all = all && side < 0;
+    }
+    edge = uint16_t(edge + 1 == blocker.vertex_count ? 0 : edge + 1);
   }
   return all ? Shadow::all : Shadow::part;
 }
 
-Shadow ray_shadow(const urad_scene& scene, const urad_blocker& blocker, int turn, uint16_t size,
-                  const urad_point& from, const urad_point& to) noexcept {
-  if (size < kLeastSize) return Shadow::part;
+Shadow ray_shadow(const urad_scene& scene, const urad_blocker& blocker, int turn,
+                  const CoarseScale& scale, Edges edges, const urad_point& from,
+                  const urad_point& to) noexcept {
+  if (scale.margin == ~0u) return Shadow::part;
   const urad_point* vertex = scene.vertex + blocker.first_vertex;
   const urad_point ray = to - from;
-  urad_point p = coarse(vertex[blocker.vertex_count - 1]) - from;
   Shadow cast = Shadow::all;
   for (uint16_t k = 0; k < blocker.vertex_count; ++k) {
-    const urad_point q = coarse(vertex[k]) - from;
-    const EdgePlane plane(p, q);
-    p = q;
+    if (!edges.holds(k)) continue;
+    const uint16_t before = uint16_t((k ? k : blocker.vertex_count) - 1);
+    const EdgePlane plane(coarse(vertex[before]) - from, coarse(vertex[k]) - from, scale.exponent);
     const int32_t height = plane.height(ray);
-    if (magnitude(height) <= margin_of(plane, size))
+    if (magnitude(height) <= scale.margin)
       cast = Shadow::part;
     else if ((height > 0) == (turn > 0))
       return Shadow::none;

@@ -24,8 +24,10 @@ enum SkipOff : uint32_t {
   skip_off_behind = 8,    ///< so are those of surfaces wholly behind
   skip_off_convex = 16,   ///< convex scenes ask for rays, too: rays_spared takes up skipped_convex
                           ///< times rays
-  skip_off_blockers = 32  ///< rays are made and tested against all blockers: `rays` takes up
-                          ///< rays_spared, blockers_kept takes up blockers_rejected
+  skip_off_blockers = 32,  ///< rays are made and tested against all blockers: `rays` takes up
+                           ///< rays_spared, blockers_kept takes up blockers_rejected
+  skip_off_unseen = 64     ///< a ray looks at every polygon it is tested against, past its box and
+                           ///< its shadow, in the order of the scene: tests_unseen stays 0
 };
 
 /// Invariants of two patches of the scene after each was cut to the other's front half-space.

@@ -32,14 +32,15 @@ constexpr Scaled scaled(uint64_t x) noexcept {
   return n > 31 ? Scaled{uint32_t(x >> (n - 31)), n - 31} : Scaled{uint32_t(x << (31 - n)), n - 31};
 }
 
-/// a b and a / b, leading 32 bits kept. b.mantissa != 0 in a quotient.
+/// a b, 1 / b and a / b, leading 32 bits kept. b.mantissa != 0 in a quotient.
 constexpr Scaled operator*(const Scaled& a, const Scaled& b) noexcept {
   const Scaled product = scaled(uint64_t{a.mantissa} * b.mantissa);
   return {product.mantissa, product.exponent + a.exponent + b.exponent};
 }
-constexpr Scaled operator/(const Scaled& a, const Scaled& b) noexcept {
-  return a * Scaled{inverse_uq62(b.mantissa), -62 - b.exponent};
+constexpr Scaled inverse(const Scaled& b) noexcept {
+  return {inverse_uq62(b.mantissa), -62 - b.exponent};
 }
+constexpr Scaled operator/(const Scaled& a, const Scaled& b) noexcept { return a * inverse(b); }
 
 /// a 2^fraction_bits as an integer, dropped below, saturating at 2^62.
 constexpr int64_t to_q(const Scaled& a, int fraction_bits) noexcept {

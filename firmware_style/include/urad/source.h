@@ -35,6 +35,7 @@ typedef struct urad_counters {
   uint32_t sums;                /* points at which near pairs took an exact sum */
   uint32_t shut_unseen;         /* of blocked: one blocker shuts off all of the pair, no ray made */
   uint32_t sights;              /* evaluated with a visible part that was exported, no ray made */
+  uint32_t tests_unseen;        /* of ray_tests: settled by a box or shadow, no look at the polygon */
 } urad_counters;
 
 /* Fills f_uq32[0 .. count-1] with the form factors F (UQ0.32, saturating) from patch `shooter` to patches

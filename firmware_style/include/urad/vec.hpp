@@ -25,10 +25,29 @@ constexpr int64_t sparse_dot(const urad_point& n, const urad_point& r) noexcept 
   return sum;
 }
 
+/// The sign of sparse_dot(): along an axis, without a product.
+constexpr int sign_of_dot(const urad_point& n, const urad_point& r) noexcept {
+  const auto sign = [](int32_t a, int32_t b) {
+    return a == 0 || b == 0 ? 0 : (a < 0) == (b < 0) ? 1 : -1;
+  };
+  if (!n.x && !n.y) return sign(n.z, r.z);
+  if (!n.x && !n.z) return sign(n.y, r.y);
+  if (!n.y && !n.z) return sign(n.x, r.x);
+  const int64_t sum = sparse_dot(n, r);
+  return sum < 0 ? -1 : sum > 0;
+}
+
 /// Signed distance of `x` from the plane through `on` with this normal, in scene units, rounded.
+/// Along an axis a difference says it.
 constexpr int32_t plane_distance(const urad_point& normal_q30, const urad_point& on,
                                  const urad_point& x) noexcept {
-  return int32_t(round_shift(sparse_dot(normal_q30, x - on), 30));
+  constexpr int32_t kOne_q30 = int32_t{1} << 30;
+  const urad_point &n = normal_q30, r = x - on;
+  const auto along = [](int32_t one, int32_t d) { return one < 0 ? -d : d; };
+  if (!n.x && !n.y && magnitude(n.z) == kOne_q30) return along(n.z, r.z);
+  if (!n.x && !n.z && magnitude(n.y) == kOne_q30) return along(n.y, r.y);
+  if (!n.y && !n.z && magnitude(n.x) == kOne_q30) return along(n.x, r.x);
+  return int32_t(round_shift(sparse_dot(n, r), 30));
 }
 
 /// Distances up to this count as "on the plane", 2^-23 of the scene's box. A coordinate is off by

@@ -8,7 +8,7 @@ namespace host {
 
 // sizeof on a Cortex-M0; bench/plan/measure.sh has the chip say them, `urad_plan_fit check` compares.
 inline constexpr std::size_t kStateBytes = 240;     ///< urad_radiosity
-inline constexpr std::size_t kCountersBytes = 100;  ///< urad_counters
+inline constexpr std::size_t kCountersBytes = 104;  ///< urad_counters
 inline constexpr std::size_t kPairSourceBytes = 56;
 inline constexpr std::size_t kPoseSourceBytes = 20;
 inline constexpr std::size_t kHemicubeSourceBytes = 60;

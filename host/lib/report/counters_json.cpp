@@ -28,6 +28,7 @@ nlohmann::ordered_json counters_json(const urad_counters& c) {
           {"blockers_kept", c.blockers_kept},
           {"blockers_rejected", c.blockers_rejected},
           {"shut_unseen", c.shut_unseen},
+          {"tests_unseen", c.tests_unseen},
           {"sights", c.sights}};
 }
 

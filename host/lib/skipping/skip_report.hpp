@@ -44,7 +44,7 @@ struct SkipReport {
   double error_bits = 0, error_fractions = 0;  ///< rms of B by exported visibility
   std::size_t bytes_bits = 0, bytes_fractions = 0;
   std::optional<MovedAnswer> moved;  ///< of scenes with something that can stand between patches
-  /// Mean instructions of a row by "on", "same", ..., "all", "bounded", "all_64", "worth_64", and of a shot's solver by
+  /// Mean instructions of a row by "on", "same", ..., "all", "bounded", "on_64", "all_64", "worth_64", and of a shot's solver by
   /// "solver_on", "solver_all"; of a row with exported fractions "sight"; of light_mix() with one light
   /// and with two "light_1", "light_2"; empty: not counted.
   std::map<std::string, double> instructions;
