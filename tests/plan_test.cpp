@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -107,6 +108,40 @@ TEST_CASE("bytes are those of the engine's functions and of the exporter") {
     CHECK(line(plan, "fixed-moment").ram ==
           URAD_RADIOSITY_BYTES(pod.patch_count, urad_longest_run(&pod)) + host::kStateBytes +
               host::kCountersBytes + host::kPairSourceBytes);
+  }
+}
+
+TEST_CASE("exported visibility: bytes of the exporter, no rays, and the error that comes out") {
+  const host::Scene scene = host::load_scene("louvre", {4, 0});
+  host::PlanRequest request;
+  const host::Plan without = host::make_plan(scene, kNets, request);
+  request.visibility = true;
+  const host::Plan plan = host::make_plan(scene, kNets, request);
+  CHECK(plan.methods.size() == without.methods.size() + 2);
+  const host::PlannedMethod& rays = line(plan, "net");
+  host::SceneSolver solver(scene, 0, true);
+  host::SolveGoal goal;
+  goal.error = 1e-4;
+  for (const char* name : {"fractions", "bits"}) {
+    CAPTURE(name);
+    const auto found = std::find_if(plan.methods.begin(), plan.methods.end(), [&](const auto& m) {
+      return m.setting == std::string("bake --visibility ") + name;
+    });
+    REQUIRE(found != plan.methods.end());
+    const host::PlannedMethod& exported = *found;
+    solver.use_visibility(host::parse_visibility_code(name));
+    const urad_scene& pod = solver.fixed().pod();
+    CHECK(exported.data ==
+          host::scene_flash_bytes(pod, scene.closed) +
+              host::net_flash(urad_general.inputs, urad_general.hidden, urad_general.weight_bits));
+    CHECK(exported.ram == rays.ram);
+    CHECK(exported.code == rays.code);
+    CHECK(exported.per_solve < rays.per_solve);
+    const double measured = std::hypot(solver.run(host::parse_method("net"), kNets, goal).rms,
+                                       host::kStopShare * request.error);
+    MESSAGE(std::string(name) << ": planned " << exported.error << ", measured " << measured);
+    CHECK(exported.error <= 2.5 * measured);
+    CHECK(exported.error >= measured / 2.5);
   }
 }
 

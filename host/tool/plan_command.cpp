@@ -46,6 +46,8 @@ void add_plan(CLI::App& app, const Common& common) {
                    "Relative rms error of B against the exact solution; 0.01 = 1 %")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
+  command->add_flag("--visibility", options->request.visibility,
+                    "Also with exported visibility (urad bake --visibility): some seconds");
   command->add_option("--net", options->net, "JSON of the network for net and hybrid");
   command->add_option("--json", options->json, "The plan as JSON (\"-\": to standard output)");
   command->callback([options, &common] { run(*options, common); });

@@ -12,12 +12,14 @@
 #include "pose/pose_layout.hpp"
 #include "report/text.hpp"
 #include "scene/c_export.hpp"
+#include "solve/exported_visibility.hpp"
 #include "urad/form_factor.hpp"
 
 namespace host {
 
 namespace {
 
+constexpr int kSightRays = 1024;         // of a pair, as `urad bake --visibility` makes them
 constexpr int kInputs = 14, kBits = 16;  // of the networks that `urad train` makes
 
 template <class Table>
@@ -57,6 +59,10 @@ class Planner {
     add_pairs("fixed-lambert:1", "lambert1", "pairs", 0, 0);
     const SampledMethod by_more = add_pairs("fixed-lambert:2", "lambert2", "pairs", 0, 0);
     for (const int hidden : {4, 8}) add_scene_net(by_general, by_more, general.hidden, hidden);
+    if (request_.visibility && !scene_.convex) {
+      add_exported(VisibilityCode::fractions, "fractions");
+      add_exported(VisibilityCode::bits, "bits");
+    }
     add_table();
     for (const int resolution : {32, 64}) {
       add_hemicube(resolution, false);
@@ -69,7 +75,8 @@ class Planner {
  private:
   /// Adds what all methods share to a line that has its own memory, work and error.
   void add(PlannedMethod method, std::string_view family, std::string_view code,
-           const RowWork& work, double sampled_error, double more = 0) {
+           const RowWork& work, double sampled_error, double more = 0,
+           const FixedScene* exported = nullptr) {
     const MethodError& error = find(kMethodErrors, family);
     const double of_factors = std::hypot(error.factor * sampled_error, error.constant);
     const double per_row = find(kRowCosts, family).of(work) + more;
@@ -77,7 +84,8 @@ class Planner {
                                                 rehearsal_.updates / rehearsal_.shots);
     method.ram += solver_ram(pod_);
     method.data +=
-        scene_flash_bytes(pod_, scene_.closed && code != "table" && family.find("hemicube") != 0);
+        scene_flash_bytes(exported ? exported->pod() : pod_,
+                          scene_.closed && code != "table" && family.find("hemicube") != 0);
     method.code = find(kMethodCode, code).bytes;
     method.per_shot = per_row + per_shot;
     method.per_solve = method.per_shot * rehearsal_.shots + kSolverCost.init +
@@ -115,6 +123,23 @@ class Planner {
     const double rays = scene_.convex ? 0 : find(kMethodErrors, "lambert2").factor * exact.error;
     plan_.methods.back().error =
         std::hypot(std::hypot(error.constant, rays), kStopShare * request_.error);
+  }
+
+  /// The general network where visible parts lie in flash: how many bytes of it they take depends on
+  /// what is seen, so they are made.
+  void add_exported(VisibilityCode code, const char* name) {
+    FixedScene exported(scene_);
+    exported.set_visibility(make_visibility(scene_, exported, code, kSightRays, request_.threads));
+    const urad_net& net = nets_.find("");
+    RowSetting setting;
+    setting.hidden = net.hidden;
+    const SampledMethod sampled = sample_.run(parse_method("net"), nets_, {}, setting, &exported);
+    PlannedMethod method;
+    method.method = "net";
+    method.setting = fmt::format("bake --visibility {}", name);
+    method.ram = kPairSourceBytes;
+    method.data = net_flash(net.inputs, net.hidden, net.weight_bits);
+    add(method, "net", "pairs", sampled.work, sampled.error, 0, &exported);
   }
 
   void add_table() {

@@ -14,6 +14,7 @@ namespace host {
 struct PlanRequest {
   std::size_t ram = SIZE_MAX, flash = SIZE_MAX;  ///< bytes of the chip that a solve may take
   double error = 0.01;                           ///< relative rms of B against the exact solution
+  bool visibility = false;  ///< also with exported visibility, which is made for it: some seconds
   int threads = 0;
 };
 

@@ -132,20 +132,22 @@ double Sample::shot_error(const EngineSource& source) const {
 }
 
 SampledMethod Sample::run(const MethodSpec& spec, const NetChoice& nets,
-                          const EngineOptions& options, const RowSetting& setting) const {
+                          const EngineOptions& options, const RowSetting& setting,
+                          const FixedScene* exported) const {
+  const FixedScene& fixed = exported ? *exported : fixed_;
   SampledMethod result;
   EngineOptions counted = options;
   if (!scene_.convex) counted.rays = std::min(options.rays, kCountedRays);
-  const EngineSource counting(fixed_, spec, nets, counted);
+  const EngineSource counting(fixed, spec, nets, counted);
   const bool few_but_dear = spec.name == "net" || spec.name == "hybrid";
   const auto& shooters = few_but_dear || !scene_.convex ? more_shooters_ : shooters_;
   std::vector<std::uint32_t> row(scene_.patches.size());
   for (const std::size_t k : shooters) counting.row(std::uint16_t(k), row.data());
-  result.work = row_work(counting.counters(), fixed_.pod(), setting, double(shooters.size()));
+  result.work = row_work(counting.counters(), fixed.pod(), setting, double(shooters.size()));
   const double rays = double(options.rays) / counted.rays;
   for (const WorkTerm term : {WorkTerm::rays, WorkTerm::ray_tests, WorkTerm::spared})
     result.work[std::size_t(term)] *= rays;
-  const EngineSource source(fixed_, spec, nets, options);
+  const EngineSource source(fixed, spec, nets, options);
   const bool row_is_a_cube = spec.name == "hemicube" || spec.name == "hybrid";
   result.error = row_is_a_cube ? shot_error(source) : gathered_error(source);
   return result;

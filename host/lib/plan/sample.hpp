@@ -30,8 +30,9 @@ class Sample {
   /// what methods count comes from up to four times as many where that is quick.
   Sample(const Scene& scene, const FixedScene& fixed, const Rehearsal& rehearsal, int threads);
 
+  /// exported: the scene with visible parts in flash, to be taken instead of rays; or null.
   SampledMethod run(const MethodSpec& spec, const NetChoice& nets, const EngineOptions& options,
-                    const RowSetting& setting) const;
+                    const RowSetting& setting, const FixedScene* exported = nullptr) const;
   /// The work of a pose table, which has no error here: `block_of` as in a urad_pose_table.
   RowWork table_work(const std::vector<std::uint16_t>& block_of) const;
 
