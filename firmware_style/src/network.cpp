@@ -7,7 +7,7 @@ namespace urad {
 
 namespace {
 
-constexpr int32_t kZLimit_q11 = 32767;    // the sigmoid is flat beyond +-16
+constexpr int32_t kZLimit_q11 = 32767;  // the sigmoid is flat beyond +-16
 
 /// network_check() has seen to it that the result fits 32 bits.
 constexpr int32_t rescaled(int32_t accumulator, const urad_rescale& scale) noexcept {
