@@ -104,6 +104,32 @@ TEST_CASE("an output that cannot be written is named, and nothing is left behind
   CHECK(bake.text.find("/proc/none") != std::string::npos);
 }
 
+TEST_CASE("a folder that nothing was written into goes again, one that was there stays") {
+  const fs::path there = scratch("no_bake"), made = there / "made" / "deep";
+  for (const fs::path& folder : {made, there}) {
+    CHECK(urad("bake cube7 --method hemicube:15 -o " + folder.string()).status == 2);
+    CHECK(fs::exists(there));
+    CHECK(fs::is_empty(there));
+  }
+  CHECK(urad("reproduce table4.1 --quick --document nowhere.md -o " + made.string()).status == 1);
+  CHECK(fs::is_empty(there));
+}
+
+TEST_CASE("a wrong number is told with what would do") {
+  const auto told = [](const std::string& arguments, const std::string& sentence) {
+    const Outcome outcome = urad(arguments);
+    CAPTURE(outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find(sentence) != std::string::npos);
+  };
+  told("solve cube7 --method net --error 0 --out -", "--error: 0 should be from 1e-07 to 1");
+  told("train --scene cube7 --hidden 65 -o -", "--hidden: 65 should be from 1 to 64");
+  told("plan cube7 --ram 0", "--ram: 0 should be from 1 to");
+  told("stress --minutes -3", "--minutes: -3 should be above 0");
+  told("solve cube7 --method net,auto --out -", "--method net,auto: one method at a time here");
+  told("bake cube7 --method net,auto,net -o out", "--method net,auto,net: net stands twice");
+}
+
 TEST_CASE("wrong usage has status 2 and says what would do") {
   const std::string pairs = std::string(URAD_SOURCE_DIR) + "/tests/vectors/pairs.csv";
   for (const std::string& arguments : std::vector<std::string>{

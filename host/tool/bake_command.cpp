@@ -2,12 +2,13 @@
 // arrays, report.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/output_folder.hpp"
 #include "net_option.hpp"
+#include "number_range.hpp"
 #include "pose/pose_table.hpp"
 #include "report/animation.hpp"
 #include "report/apng.hpp"
@@ -23,8 +24,6 @@
 namespace tool {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Options {
   SceneOption scene;
@@ -118,9 +117,10 @@ std::vector<host::Fact> network_facts(const host::NetFile* file) {
   return result;
 }
 
-void add_method(const fs::path& folder, const host::Scene& scene, const host::MethodResult& method,
-                const host::CornerMesh& mesh, double white, std::vector<host::OutputFile>* files) {
-  const std::string stem = (folder / file_of(method.name)).string();
+void add_method(const host::OutputFolder& folder, const host::Scene& scene,
+                const host::MethodResult& method, const host::CornerMesh& mesh, double white,
+                std::vector<host::OutputFile>* files) {
+  const std::string stem = folder.file(file_of(method.name));
   files->push_back({stem + ".png", method.pictures.smooth});
   if (!method.pictures.difference.empty())
     files->push_back({stem + "_difference.png", method.pictures.difference});
@@ -129,16 +129,15 @@ void add_method(const fs::path& folder, const host::Scene& scene, const host::Me
 
 /// A strip of light that moves, a wall that is painted and an object that moves, each as animated PNG
 /// and table.
-void write_animations(const fs::path& folder, const host::Scene& scene,
+void write_animations(const host::OutputFolder& folder, const host::Scene& scene,
                       const host::EngineRows& rows, const host::NetChoice& nets,
                       const host::PictureOptions& pictures, host::BakeReport* report) {
   host::AnimationOptions options;
   options.picture = pictures;
   const auto write = [&](const std::string& name, const host::Animation& animation,
                          const std::string& what) {
-    host::write_file_atomically((folder / (name + ".png")).string(),
-                                host::apng(animation.frames, 33));
-    host::write_file_atomically((folder / (name + ".csv")).string(), animation.table);
+    host::write_file_atomically(folder.file(name + ".png"), host::apng(animation.frames, 33));
+    host::write_file_atomically(folder.file(name + ".csv"), animation.table);
     report->files.push_back({name + ".png, .csv", what});
   };
   write("moving_strip", host::animate_strip(scene, rows, options),
@@ -159,12 +158,7 @@ void run(const Options& options, const Common& common) {
   std::unique_ptr<host::InstructionCounts> counts;
   if (!options.instructions.empty())
     counts = std::make_unique<host::InstructionCounts>(options.instructions);
-  const fs::path folder(options.folder);
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure)
-    throw host::Error(
-        fmt::format("{}: cannot make this folder: {}", options.folder, failure.message()));
+  const host::OutputFolder folder(options.folder);
 
   host::BakeReport report;
   report.title = scene.name;
@@ -240,16 +234,16 @@ void run(const Options& options, const Common& common) {
         {file_of(method.name) + ".png, .ply", "picture and vertex colours by " + method.label()});
   }
   if (!light.empty()) {
-    files.push_back({(folder / "scene.h").string(), scene_arrays});
-    files.push_back({(folder / "light.h").string(), light});
+    files.push_back({folder.file("scene.h"), scene_arrays});
+    files.push_back({folder.file("light.h"), light});
     report.files.push_back({"scene.h, light.h", "the scene and its light as C arrays"});
   }
   if (!pose_arrays.empty()) {
-    files.push_back({(folder / "poses.h").string(), pose_arrays});
+    files.push_back({folder.file("poses.h"), pose_arrays});
     report.files.push_back({"poses.h", "the pose table as C arrays"});
   }
-  files.push_back({(folder / "report.json").string(), host::report_json({report})});
-  files.push_back({(folder / "report.html").string(), host::report_html({report})});
+  files.push_back({folder.file("report.json"), host::report_json({report})});
+  files.push_back({folder.file("report.html"), host::report_html({report})});
   host::write_files_atomically(files);
 }
 
@@ -264,10 +258,10 @@ void add_bake(CLI::App& app, const Common& common) {
       ->capture_default_str();
   command->add_option("--net", options->net, "JSON of the network for net and hybrid");
   command->add_option("--error", options->error, "Stop each solve at this relative rms error of B")
-      ->check(CLI::Range(1e-7, 1.0))
+      ->check(between(1e-7, 1.0))
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height of the pictures")
-      ->check(CLI::Range(16, 4096));
+      ->check(between(16, 4096));
   command->add_flag(
       "--animate", options->animate,
       "Also animated PNGs of light that changes: a strip of the lamp that moves, a "

@@ -6,6 +6,7 @@
 #include "command.hpp"
 #include "method/pairs_table.hpp"
 #include "net_option.hpp"
+#include "number_range.hpp"
 
 namespace tool {
 
@@ -55,7 +56,7 @@ void add_formfactor(CLI::App& app, const Common& common) {
   sources->require_option(1);
   command->add_option("--net", options->net, "JSON of the network for methods net and auto");
   command->add_option("--subdivide", options->subdivide, "Cut P into about N x N pieces (--scene)")
-      ->check(CLI::Range(1, 256));
+      ->check(between(1, 256));
   command->add_option("--out", options->out, "CSV to write (\"-\": standard output)")->required();
   command->callback([options, &common] { run(*options, common); });
 }

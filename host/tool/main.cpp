@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/nearest_name.hpp"
 #include "command.hpp"
+#include "number_range.hpp"
 
 namespace {
 
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
   tool::Common common;
   app.add_flag("-q,--quiet", common.quiet, "No remarks, no progress");
   app.add_option("--threads", common.threads, "Threads of long work; 0: all cores")
-      ->check(CLI::Range(0, 1024));
+      ->check(tool::between(0, 1024));
   std::string topic;
   add_help(app, &topic);
   tool::add_formfactor(app, common);

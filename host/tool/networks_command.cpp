@@ -8,6 +8,7 @@
 #include "base/file.hpp"
 #include "command.hpp"
 #include "net_option.hpp"
+#include "number_range.hpp"
 
 namespace tool {
 
@@ -46,17 +47,17 @@ void add_networks(CLI::App& app, const Common& common) {
       "networks", "General networks by width and seed: errors, what integers cost, fronts");
   command->add_option("--hidden", request.hidden, "Widths")
       ->delimiter(',')
-      ->check(CLI::Range(1, 32))
+      ->check(between(1, 32))
       ->capture_default_str();
   command->add_option("--seeds", request.seeds, "Seeds")->delimiter(',')->capture_default_str();
   command->add_option("--effort", request.effort, "Share of a training's usual pairs and steps")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(between(0.01, 1.0))
       ->capture_default_str();
   command->add_option("--pairs", request.pairs, "Random pairs of a family to judge by")
-      ->check(CLI::Range(10, 100000))
+      ->check(between(10, 100000))
       ->capture_default_str();
   command->add_option("--trials", request.trials, "Test pairs of a family for the fronts")
-      ->check(CLI::Range(10, 100000))
+      ->check(between(10, 100000))
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "Document to write")->required();
   command->callback([options, &common] { run(*options, common); });

@@ -5,6 +5,7 @@
 
 #include "base/file.hpp"
 #include "net_option.hpp"
+#include "number_range.hpp"
 #include "plan/plan.hpp"
 #include "scene_option.hpp"
 
@@ -37,14 +38,14 @@ void add_plan(CLI::App& app, const Common& common) {
       ->add_option("--ram", options->request.ram,
                    "Bytes of RAM for the solve, or 16K; left out: any")
       ->transform(CLI::AsSizeValue(false))
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
+      ->check(between(std::size_t{1}, std::size_t{1} << 40));
   command->add_option("--flash", options->request.flash, "Bytes of flash, or 256K; left out: any")
       ->transform(CLI::AsSizeValue(false))
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
+      ->check(between(std::size_t{1}, std::size_t{1} << 40));
   command
       ->add_option("--error", options->request.error,
                    "Relative rms error of B against the exact solution; 0.01 = 1 %")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(between(1e-6, 1.0))
       ->capture_default_str();
   command->add_flag("--visibility", options->request.visibility,
                     "Also with exported visibility (urad bake --visibility): some seconds");

@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/output_folder.hpp"
 #include "command.hpp"
 #include "legacy/experiments.hpp"
+#include "number_range.hpp"
 
 namespace tool {
 
@@ -47,9 +48,7 @@ host::ReproduceRequest request_of(const Options& options, const Common& common) 
 void run(const Options& options, const Common& common) {
   const host::ReproduceRequest request = request_of(options, common);
   const std::string document = options.document.empty() ? "" : host::read_file(options.document);
-  std::error_code failure;
-  std::filesystem::create_directories(options.out, failure);
-  if (failure) throw host::Error(options.out + ": " + failure.message());
+  const host::OutputFolder folder(options.out);
   const auto asked = [&](const std::string& what) {
     return options.what == what || (options.what == "all" && what != "experiments");
   };
@@ -57,7 +56,7 @@ void run(const Options& options, const Common& common) {
   const auto show = [&](const std::vector<host::ResultTable>& tables) {
     for (const host::ResultTable& table : tables) {
       shown.push_back(table);
-      const std::string path = options.out + "/" + table.file;
+      const std::string path = folder.file(table.file);
       host::write_file_atomically(path + ".csv", host::to_csv(table));
       host::write_file_atomically(path + ".md", host::to_markdown(table));
       fmt::print("{}\n", host::to_text(table));
@@ -118,7 +117,7 @@ void add_reproduce(CLI::App& app, const Common& common) {
   command
       ->add_option("--epochs", options->epochs,
                    fmt::format("Epochs of every training; default {}, the report's", kEpochs))
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(between(1, 1'000'000));
   command->add_option("--seed", options->seed, "Start weights, split, random quads")
       ->capture_default_str();
   command->add_flag("--quick", options->quick,

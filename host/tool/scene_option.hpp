@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command.hpp"
+#include "number_range.hpp"
 #include "scene/builtin.hpp"
 
 namespace tool {
@@ -14,9 +15,9 @@ namespace tool {
 inline void add_mesh_options(CLI::App* command, host::MeshOptions* mesh) {
   auto* subdivide =
       command->add_option("--subdivide", mesh->subdivide, "Cut every face into N x N patches")
-          ->check(CLI::Range(1, 255));
+          ->check(between(1, 255));
   command->add_option("--patch-size", mesh->patch_size, "Longest patch edge, in the file's unit")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->excludes(subdivide);
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "net_option.hpp"
+#include "number_range.hpp"
 #include "report/solve_json.hpp"
 #include "scene_option.hpp"
 #include "solve/scene_solver.hpp"
@@ -147,39 +148,39 @@ void add_solve(CLI::App& app, const Common& common) {
       ->required();
   command->add_option("--net", options->net, "JSON of the network for net, auto and hybrid");
   auto* shots = command->add_option("--shots", options->shots, "Stop after N shots")
-                    ->check(CLI::Range(1, 1 << 30));
+                    ->check(between(1, 1 << 30));
   command
       ->add_option("--error", options->error,
                    "Stop at this relative rms error of B, without what patches emit themselves, "
                    "against the converged solution of the same factors")
-      ->check(CLI::Range(1e-7, 1.0))
+      ->check(between(1e-7, 1.0))
       ->capture_default_str()
       ->excludes(shots);
   command
       ->add_option(
           "--rays", options->rays,
           "Rays a pair of patches of the exact solution, where something may stand between")
-      ->check(CLI::Range(1, 1 << 20))
+      ->check(between(1, 1 << 20))
       ->capture_default_str();
   command
       ->add_option("--bound", options->engine.bound,
                    "Pair methods: leave out small factors as long as no row loses more than this; "
                    "0: none")
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(between(0.0, 0.5));
   command
       ->add_option("--pair-rays", options->engine.rays,
                    "Rays a pair by the engine, where something may stand between")
-      ->check(CLI::Range(1, 1024))
+      ->check(between(1, 1024))
       ->capture_default_str();
   command
       ->add_option("--ray-error", options->engine.ray_error,
                    "Pair methods: the fewer rays, the further a form factor is below this; 0: the "
                    "same for all")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(between(0.0, 1.0));
   command
       ->add_option("--cuts", options->engine.cuts,
                    "With --ray-error: cut patches so often where rays disagree")
-      ->check(CLI::Range(0, 6));
+      ->check(between(0, 6));
   command->add_option("--out", options->out, "CSV of the solution (\"-\": standard output)")
       ->required();
   command->add_option("--rows", options->rows, "CSV of all form factors, before repair");

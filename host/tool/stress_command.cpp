@@ -7,6 +7,7 @@
 #include "base/file.hpp"
 #include "base/parallel.hpp"
 #include "command.hpp"
+#include "number_range.hpp"
 #include "stress/stress_run.hpp"
 #include "stress/stress_table.hpp"
 
@@ -91,10 +92,10 @@ void add_stress(CLI::App& app, const Common& common) {
       ->delimiter(',');
   command->add_option("--seed", options->seed, "Of all cases")->capture_default_str();
   auto* minutes = command->add_option("--minutes", options->minutes, "Time for all kinds together")
-                      ->check(CLI::PositiveNumber)
+                      ->check(positive())
                       ->capture_default_str();
   command->add_option("--cases", options->cases, "So many of every family, instead of a time")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->excludes(minutes);
   command->add_option("-o,--out", options->folder, "Folder for the failures");
   command->add_option("--document", options->document, "The table as Markdown");

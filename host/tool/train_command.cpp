@@ -5,6 +5,7 @@
 #include "base/progress.hpp"
 #include "command.hpp"
 #include "network/train_net.hpp"
+#include "number_range.hpp"
 #include "scene_option.hpp"
 
 namespace tool {
@@ -68,7 +69,7 @@ void add_train(CLI::App& app, const Common& common) {
   command
       ->add_option("--hidden", options->hidden,
                    "Hidden neurons; default 4 for a scene, 8 for general")
-      ->check(CLI::Range(1, URAD_NET_MAX_HIDDEN));
+      ->check(between(1, URAD_NET_MAX_HIDDEN));
   command->add_option("--seed", options->seed, "Start values, held-out pairs, random pairs")
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "net.json to write")->required();

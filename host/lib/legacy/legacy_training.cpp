@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/output_folder.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 
@@ -73,9 +74,7 @@ LegacyNetFile train_one(const LegacyJob& job, const std::string& path, Progress*
 
 std::vector<LegacyNetFile> train_legacy(const std::vector<LegacyJob>& jobs,
                                         const std::string& folder, int threads, bool quiet) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw Error(folder + ": " + failure.message());
+  const OutputFolder kept(folder);
   std::vector<LegacyNetFile> files(jobs.size());
   std::vector<std::size_t> open;
   std::size_t epochs = 0;

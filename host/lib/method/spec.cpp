@@ -41,6 +41,8 @@ void MethodSpec::expect_no_argument() const {
 }
 
 MethodSpec parse_method(const std::string& text) {
+  if (text.find(',') != std::string::npos)
+    throw UsageError(fmt::format("--method {}: one method at a time here", text));
   const std::size_t colon = text.find(':');
   MethodSpec spec{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
   if (spec.name.empty() || (colon != std::string::npos && spec.argument.empty())) {
@@ -53,7 +55,11 @@ std::vector<MethodSpec> parse_methods(const std::string& list) {
   std::vector<MethodSpec> specs;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t comma = std::min(list.find(',', at), list.size());
-    specs.push_back(parse_method(list.substr(at, comma - at)));
+    const MethodSpec spec = parse_method(list.substr(at, comma - at));
+    if (std::any_of(specs.begin(), specs.end(),
+                    [&](const MethodSpec& other) { return other.text() == spec.text(); }))
+      throw UsageError(fmt::format("--method {}: {} stands twice", list, spec.text()));
+    specs.push_back(spec);
     at = comma + 1;
   }
   return specs;

@@ -23,7 +23,7 @@ struct MethodSpec {
 
 MethodSpec parse_method(const std::string& text);
 
-/// "M[,M...]". Throws Error when the list or one of its members is empty.
+/// "M[,M...]". Throws UsageError when the list or one of its members is empty or stands twice.
 std::vector<MethodSpec> parse_methods(const std::string& list);
 
 /// What to throw for a method that is none of `known` ("hybrid[:R]", "lambert:N"): names them, and

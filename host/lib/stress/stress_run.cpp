@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/output_folder.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "stress/watch.hpp"
@@ -134,13 +135,8 @@ StressReport run_stress(const StressRequest& request) {
   report.request = request;
   double shares = 0;
   for (const std::string& kind : request.kinds) shares += share_of(kind);
-  if (!request.folder.empty()) {
-    std::error_code failure;
-    std::filesystem::create_directories(request.folder, failure);
-    if (failure)
-      throw Error(
-          fmt::format("{}: cannot make this folder: {}", request.folder, failure.message()));
-  }
+  std::optional<OutputFolder> folder;
+  if (!request.folder.empty()) folder.emplace(request.folder);
   const auto start = Clock::now();
   for (const std::string& kind : request.kinds) {
     const double seconds = 60 * request.minutes * share_of(kind) / shares;
