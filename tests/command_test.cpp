@@ -126,6 +126,7 @@ TEST_CASE("a wrong number is told with what would do") {
   told("train --scene cube7 --hidden 65 -o -", "--hidden: 65 should be from 1 to 64");
   told("plan cube7 --ram 0", "--ram: 0 should be from 1 to");
   told("stress --minutes -3", "--minutes: -3 should be above 0");
+  told("formfactor --method kernel --in x.csv --subdivide 2 --out -", "--scene");
   told("solve cube7 --method net,auto --out -", "--method net,auto: one method at a time here");
   told("bake cube7 --method net,auto,net -o out", "--method net,auto,net: net stands twice");
 }

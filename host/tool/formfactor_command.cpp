@@ -51,12 +51,13 @@ void add_formfactor(CLI::App& app, const Common& common) {
       "--in", options->in,
       "CSV with columns id, p, q (\"-\": standard input). A polygon is \"x y z;x y z;x y z\", "
       "counter-clockwise from its lit side; holes follow behind |");
-  sources->add_option("--scene", options->scene,
-                      "CSV with columns scene, role (P, Q or B), polygon");
+  auto* plates = sources->add_option("--scene", options->scene,
+                                     "CSV with columns scene, role (P, Q or B), polygon");
   sources->require_option(1);
   command->add_option("--net", options->net, "JSON of the network for methods net and auto");
   command->add_option("--subdivide", options->subdivide, "Cut P into about N x N pieces (--scene)")
-      ->check(between(1, 256));
+      ->check(between(1, 256))
+      ->needs(plates);
   command->add_option("--out", options->out, "CSV to write (\"-\": standard output)")->required();
   command->callback([options, &common] { run(*options, common); });
 }
