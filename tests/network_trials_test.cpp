@@ -33,7 +33,9 @@ TEST_CASE("a network in double and in 16 bits err alike, and every method gets i
   const host::MethodTrials fronts = host::try_fronts(request, trials);
   REQUIRE(!fronts.families.empty());
   CHECK(fronts.families.front().rows.size() == 10 + 2 * 2);
-  const std::string text = host::network_document(trials, fronts, "urad networks --seeds 5");
+  const std::vector<host::TrainingTrial> none{{"a way", {0.5}, {0.25}, 1}};
+  const std::string text =
+      host::network_document(trials, fronts, none, none, "urad networks --seeds 5");
   CHECK(text.find("Written by `urad networks --seeds 5`") != text.npos);
   CHECK(text.find("| 2 hidden, alone |") != text.npos);
   CHECK(text.find("| 3 hidden, handing over |") != text.npos);

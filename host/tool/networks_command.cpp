@@ -33,8 +33,13 @@ void run(Options& options, const Common& common) {
       fmt::format("urad networks --hidden {} --seeds {} --effort {} --pairs {} --trials {} -o {}",
                   fmt::join(request.hidden, ","), fmt::join(request.seeds, ","), request.effort,
                   request.pairs, request.trials, options.out);
+  host::TrainingTrialRequest ways;
+  ways.effort = request.effort;
+  ways.threads = request.threads;
   host::write_file_atomically(
-      options.out, host::network_document(trials, host::try_fronts(request, trials), command));
+      options.out,
+      host::network_document(trials, host::try_fronts(request, trials), host::try_optimisers(ways),
+                             host::try_inputs(ways), command));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accuracy/method_trials.hpp"
+#include "accuracy/training_trials.hpp"
 #include "network/net_json.hpp"
 
 namespace host {
@@ -40,8 +41,9 @@ std::vector<NetworkTrial> try_networks(const NetworkRequest& request);
 /// pairs handed over to the exact sum, beside kernels, exact sums and auto.
 MethodTrials try_fronts(const NetworkRequest& request, const std::vector<NetworkTrial>& trials);
 
-/// docs/NETWORKS.md. Every number comes from the two.
+/// docs/NETWORKS.md. Every number comes from these.
 std::string network_document(const std::vector<NetworkTrial>& trials, const MethodTrials& fronts,
-                             const std::string& command);
+                             const std::vector<TrainingTrial>& optimisers,
+                             const std::vector<TrainingTrial>& inputs, const std::string& command);
 
 }  // namespace host

@@ -79,7 +79,7 @@ Objective::Objective(const TrainingSet& set, const Normalisation& normalisation,
   for (std::size_t k = 1; k < first_term_.size(); ++k) first_term_[k] += first_term_[k - 1];
 }
 
-template <bool kModel>
+template <Objective::Wanted kWanted>
 void Objective::add_block(const FloatNet& net, double robust, Eigen::Index first,
                           Eigen::Index count, Part* part) const {
   const int inputs = net.inputs(), hidden = net.hidden();
@@ -109,7 +109,7 @@ void Objective::add_block(const FloatNet& net, double robust, Eigen::Index first
     part->row_error[row_terms_[t].row] +=
         row_terms_[t].factor * error[Eigen::Index(row_terms_[t].sample) - first];
 
-  if constexpr (kModel) {
+  if constexpr (kWanted != Wanted::value) {
     RowMajor jacobian(count, net.parameters.size());
     for (int h = 0; h < hidden; ++h) {
       const Eigen::ArrayXd slope = output[h] * s.col(h) * (1 - s.col(h)) * gate.array();
@@ -125,12 +125,14 @@ void Objective::add_block(const FloatNet& net, double robust, Eigen::Index first
       part->row_jacobian.row(row_terms_[t].row) +=
           row_terms_[t].factor * jacobian.row(Eigen::Index(row_terms_[t].sample) - first);
     part->gradient.noalias() += jacobian.transpose() * weight.cwiseProduct(error);
-    const Eigen::MatrixXd scaled = (weight.cwiseSqrt().asDiagonal() * jacobian).transpose();
-    part->hessian.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+    if constexpr (kWanted == Wanted::model) {
+      const Eigen::MatrixXd scaled = (weight.cwiseSqrt().asDiagonal() * jacobian).transpose();
+      part->hessian.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+    }
   }
 }
 
-template <bool kModel>
+template <Objective::Wanted kWanted>
 double Objective::evaluate(const FloatNet& net, double robust, Eigen::MatrixXd* hessian,
                            Eigen::VectorXd* gradient) const {
   const Eigen::Index size = net.parameters.size(), samples = inputs_.rows();
@@ -139,15 +141,15 @@ double Objective::evaluate(const FloatNet& net, double robust, Eigen::MatrixXd* 
   for (Part& p : part) p.row_error.setZero(rows_);
   parallel_for(std::size_t(parts), threads_, [&](std::size_t k) {
     Part& p = part[k];
-    if constexpr (kModel) {
-      p.hessian.setZero(size, size);
+    if constexpr (kWanted == Wanted::model) p.hessian.setZero(size, size);
+    if constexpr (kWanted != Wanted::value) {
       p.gradient.setZero(size);
       p.row_jacobian.setZero(rows_, size);
     }
     const Eigen::Index begin = samples * Eigen::Index(k) / parts;
     const Eigen::Index end = samples * Eigen::Index(k + 1) / parts;
     for (Eigen::Index first = begin; first < end; first += kBlock)
-      add_block<kModel>(net, robust, first, std::min(kBlock, end - first), &p);
+      add_block<kWanted>(net, robust, first, std::min(kBlock, end - first), &p);
   });
 
   Part& sum = part.front();
@@ -156,32 +158,37 @@ double Objective::evaluate(const FloatNet& net, double robust, Eigen::MatrixXd* 
     const Part& p = part[std::size_t(k)];
     sum.loss += p.loss;
     sum.row_error += p.row_error;
-    if constexpr (kModel) {
-      sum.hessian += p.hessian;
+    if constexpr (kWanted == Wanted::model) sum.hessian += p.hessian;
+    if constexpr (kWanted != Wanted::value) {
       sum.gradient += p.gradient;
       sum.row_jacobian += p.row_jacobian;
     }
   }
   const double row_scale = rows_ > 0 ? row_weight_ / double(rows_) : 0;
-  if constexpr (kModel) {
-    if (parts == 0) sum.hessian.setZero(size, size), sum.gradient.setZero(size);
+  if constexpr (kWanted == Wanted::model) {
+    if (parts == 0) sum.hessian.setZero(size, size);
     *hessian = sum.hessian.selfadjointView<Eigen::Lower>();
+    if (row_scale > 0) *hessian += row_scale * (sum.row_jacobian.transpose() * sum.row_jacobian);
+  }
+  if constexpr (kWanted != Wanted::value) {
+    if (parts == 0) sum.gradient.setZero(size);
     *gradient = sum.gradient;
-    if (row_scale > 0) {
-      *hessian += row_scale * (sum.row_jacobian.transpose() * sum.row_jacobian);
-      *gradient += row_scale * (sum.row_jacobian.transpose() * sum.row_error);
-    }
+    if (row_scale > 0) *gradient += row_scale * (sum.row_jacobian.transpose() * sum.row_error);
   }
   return sum.loss + row_scale * sum.row_error.squaredNorm();
 }
 
 double Objective::value(const FloatNet& net, double robust) const {
-  return evaluate<false>(net, robust, nullptr, nullptr);
+  return evaluate<Wanted::value>(net, robust, nullptr, nullptr);
+}
+
+double Objective::slope(const FloatNet& net, double robust, Eigen::VectorXd* gradient) const {
+  return evaluate<Wanted::slope>(net, robust, nullptr, gradient);
 }
 
 double Objective::model(const FloatNet& net, double robust, Eigen::MatrixXd* hessian,
                         Eigen::VectorXd* gradient) const {
-  return evaluate<true>(net, robust, hessian, gradient);
+  return evaluate<Wanted::model>(net, robust, hessian, gradient);
 }
 
 }  // namespace host

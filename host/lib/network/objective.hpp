@@ -28,6 +28,9 @@ class Objective {
   /// L at the parameters of `net`, whose inputs are the normalised ones.
   double value(const FloatNet& net, double robust) const;
 
+  /// L, and gradient = -1/2 dL/dp.
+  double slope(const FloatNet& net, double robust, Eigen::VectorXd* gradient) const;
+
   /// L, and gradient = -1/2 dL/dp, hessian ~ 1/2 d2L/dp2 [Gauss-Newton]; hessian in full, not one
   /// triangle.
   double model(const FloatNet& net, double robust, Eigen::MatrixXd* hessian,
@@ -35,10 +38,11 @@ class Objective {
 
  private:
   struct Part;
-  template <bool kModel>
+  enum class Wanted { value, slope, model };
+  template <Wanted kWanted>
   double evaluate(const FloatNet& net, double robust, Eigen::MatrixXd* hessian,
                   Eigen::VectorXd* gradient) const;
-  template <bool kModel>
+  template <Wanted kWanted>
   void add_block(const FloatNet& net, double robust, Eigen::Index first, Eigen::Index count,
                  Part* part) const;
 

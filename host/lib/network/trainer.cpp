@@ -71,18 +71,6 @@ bool step(const Objective& objective, const Normalisation& scaling, double robus
   return false;
 }
 
-// Weights of unit variance at the sigmoid's input, a weak output: the kernel alone is nearly right
-// already.
-FloatNet random_net(int hidden, std::uint64_t seed, int id) {
-  Random random(seed, std::uint64_t(id));
-  FloatNet net(urad::kPairInputs, hidden);
-  for (int k = 0; k < net.output_at(); ++k)
-    net.parameters[k] =
-        random.normal() / (k < net.hidden_bias_at() ? std::sqrt(urad::kPairInputs) : 1);
-  for (int h = 0; h < hidden; ++h) net.parameters[net.output_at() + h] = 0.1 * random.normal();
-  return net;
-}
-
 double total_steps(const std::vector<Stage>& stages) {
   double steps = 0;
   for (const Stage& stage : stages) steps += double(stage.keep) * stage.iterations;
@@ -99,7 +87,7 @@ double steps_done(const std::vector<Stage>& stages, const TrainerState& state) {
 TrainerState first_state(const Objective& judge, const TrainerSettings& settings) {
   TrainerState state;
   for (int id = 0; id < settings.stages.front().keep; ++id) {
-    const FloatNet net = random_net(settings.hidden, settings.seed, id);
+    const FloatNet net = random_start(settings.hidden, settings.seed, id);
     Candidate candidate;
     candidate.id = id;
     candidate.parameters = candidate.best = to_std(net.parameters);
@@ -143,6 +131,16 @@ void begin_stage(const Objective& judge, const TrainerSettings& settings, Traine
 }
 
 }  // namespace
+
+FloatNet random_start(int hidden, std::uint64_t seed, int id) {
+  Random random(seed, std::uint64_t(id));
+  FloatNet net(urad::kPairInputs, hidden);
+  for (int k = 0; k < net.output_at(); ++k)
+    net.parameters[k] =
+        random.normal() / (k < net.hidden_bias_at() ? std::sqrt(urad::kPairInputs) : 1);
+  for (int h = 0; h < hidden; ++h) net.parameters[net.output_at() + h] = 0.1 * random.normal();
+  return net;
+}
 
 std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& validation,
                               const TrainerSettings& settings, const TrainerHooks& hooks) {
