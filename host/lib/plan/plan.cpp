@@ -59,10 +59,7 @@ class Planner {
     add_pairs("fixed-lambert:1", "lambert1", "pairs", 0, 0);
     const SampledMethod by_more = add_pairs("fixed-lambert:2", "lambert2", "pairs", 0, 0);
     for (const int hidden : {4, 8}) add_scene_net(by_general, by_more, general.hidden, hidden);
-    if (request_.visibility && !scene_.convex) {
-      add_exported(VisibilityCode::fractions, "fractions");
-      add_exported(VisibilityCode::bits, "bits");
-    }
+    if (request_.visibility && !scene_.convex) add_exported();
     add_table();
     for (const int resolution : {32, 64}) {
       add_hemicube(resolution, false);
@@ -127,9 +124,19 @@ class Planner {
 
   /// The general network where visible parts lie in flash: how many bytes of it they take depends on
   /// what is seen, so they are made.
-  void add_exported(VisibilityCode code, const char* name) {
-    FixedScene exported(scene_);
-    exported.set_visibility(make_visibility(scene_, exported, code, kSightRays, request_.threads));
+  void add_exported() {
+    FixedScene fractions(scene_), bits(scene_);
+    const auto see = [&](VisibilityCode code, FixedScene* scene) {
+      scene->set_visibility(make_visibility(scene_, *scene, code, kSightRays, request_.threads));
+    };
+    see(VisibilityCode::fractions, &fractions);
+    see(VisibilityCode::bits, &bits);
+    const double error = add_exported("fractions", fractions, 0);
+    add_exported("bits", bits, std::hypot(error, sample_.coarser_error(nets_, bits, fractions)));
+  }
+
+  /// error: what the factors are off by if it is known, or 0. What it is, by what is known or sampled.
+  double add_exported(const char* name, const FixedScene& exported, double error) {
     const urad_net& net = nets_.find("");
     RowSetting setting;
     setting.hidden = net.hidden;
@@ -139,7 +146,9 @@ class Planner {
     method.setting = fmt::format("bake --visibility {}", name);
     method.ram = kPairSourceBytes;
     method.data = net_flash(net.inputs, net.hidden, net.weight_bits);
-    add(method, "net", "pairs", sampled.work, sampled.error, 0, &exported);
+    error = std::max(error, sampled.error);
+    add(method, "net", "pairs", sampled.work, error, 0, &exported);
+    return error;
   }
 
   void add_table() {

@@ -19,6 +19,7 @@ constexpr double kSampledRays = 1'500'000;  // of each set of rows, occluded
 constexpr std::size_t kFewestRows = 6, kMostRows = 64, kMoreRows = 2;
 constexpr double kCountedPairs = 15'000;  // by each method, occluded, with few rays
 constexpr int kCountedRays = 4;
+constexpr double kComparedPairs = 200'000;  // of two exports, without a ray
 constexpr int kRays = 512;  // pairs of points a pair, for the reference's visibility
 
 std::size_t rows_for(const Scene& scene) {
@@ -61,14 +62,14 @@ double reflectance(const Scene& scene, std::size_t patch) {
   return (rho.x + rho.y + rho.z) / 3;
 }
 
-/// The engine's row, in a closed scene brought to the sum of the reference's.
+/// The engine's row, in a closed scene brought to the sum of a better one.
 Eigen::RowVectorXd engine_row(const Scene& scene, const EngineSource& source, std::size_t patch,
-                              const Eigen::RowVectorXd& reference) {
+                              const Eigen::RowVectorXd* better) {
   std::vector<std::uint32_t> f_uq32(scene.patches.size());
   source.row(std::uint16_t(patch), f_uq32.data());
   Eigen::RowVectorXd row(Eigen::Index(f_uq32.size()));
   for (std::size_t j = 0; j < f_uq32.size(); ++j) row[Eigen::Index(j)] = f_uq32[j] * 0x1p-32;
-  if (scene.closed && row.sum() > 0) row *= reference.sum() / row.sum();
+  if (scene.closed && better && row.sum() > 0) row *= better->sum() / row.sum();
   return row;
 }
 
@@ -82,10 +83,9 @@ Sample::Sample(const Scene& scene, const FixedScene& fixed, const Rehearsal& reh
   more_shooters_ =
       evenly(rehearsal.shooters,
              scene.convex ? kMoreRows * rows : std::max(std::size_t(most_counted), rows));
-  std::vector<std::size_t> reflecting;
   for (std::size_t k = 0; k < scene.patches.size(); ++k)
-    if (reflectance(scene, k) > 0) reflecting.push_back(k);
-  receivers_ = evenly(reflecting, rows);
+    if (reflectance(scene, k) > 0) reflecting_.push_back(k);
+  receivers_ = evenly(reflecting_, rows);
   std::vector<double> shots(scene.patches.size(), 0);
   for (const std::uint16_t shooter : rehearsal.shooters)
     shots[shooter] += 1 / double(rehearsal.shooters.size());
@@ -101,10 +101,26 @@ double Sample::gathered_error(const EngineSource& source) const {
     const Eigen::RowVectorXd reference = from_receivers_.row(Eigen::Index(k));
     const double rho = reflectance(scene_, receivers_[k]);
     const double wrong =
-        rho * (engine_row(scene_, source, receivers_[k], reference) - reference).dot(light);
+        rho * (engine_row(scene_, source, receivers_[k], &reference) - reference).dot(light);
     const double right = rho * reference.dot(light);
     off += wrong * wrong;
     all += right * right;
+  }
+  return all > 0 ? std::sqrt(off / all) : 0;
+}
+
+double Sample::coarser_error(const NetChoice& nets, const FixedScene& coarse,
+                             const FixedScene& fine) const {
+  const Eigen::Map<const Eigen::VectorXd> light(light_.data(), Eigen::Index(light_.size()));
+  const MethodSpec net = parse_method("net");
+  const EngineSource from_coarse(coarse, net, nets, {}), from_fine(fine, net, nets, {});
+  const auto count = std::size_t(kComparedPairs / double(scene_.patches.size()));
+  double off = 0, all = 0;
+  for (const std::size_t k : evenly(reflecting_, std::max(count, kFewestRows))) {
+    const Eigen::RowVectorXd right = engine_row(scene_, from_fine, k, nullptr);
+    const Eigen::RowVectorXd wrong = engine_row(scene_, from_coarse, k, &right) - right;
+    off += std::pow(reflectance(scene_, k) * wrong.dot(light), 2);
+    all += std::pow(reflectance(scene_, k) * right.dot(light), 2);
   }
   return all > 0 ? std::sqrt(off / all) : 0;
 }
@@ -120,7 +136,7 @@ double Sample::shot_error(const EngineSource& source) const {
   for (std::size_t k = 0; k < shooters_.size(); ++k) {
     const std::size_t i = shooters_[k];
     const Eigen::RowVectorXd reference = from_shooters_.row(Eigen::Index(k));
-    const Eigen::RowVectorXd wrong = engine_row(scene_, source, i, reference) - reference;
+    const Eigen::RowVectorXd wrong = engine_row(scene_, source, i, &reference) - reference;
     double squares = 0;
     for (std::size_t j = 0; j < light_.size(); ++j) {
       const double area = scene_.patches[i].moments.area / scene_.patches[j].moments.area;

@@ -33,6 +33,11 @@ class Sample {
   /// exported: the scene with visible parts in flash, to be taken instead of rays; or null.
   SampledMethod run(const MethodSpec& spec, const NetChoice& nets, const EngineOptions& options,
                     const RowSetting& setting, const FixedScene* exported = nullptr) const;
+  /// What coarser visible parts make of the light of one bounce, relative rms, by the general
+  /// network: no reference is needed, so many receivers are asked. Half a patch seen is all or
+  /// nothing in bits; in a few rows of the sample that hardly shows.
+  double coarser_error(const NetChoice& nets, const FixedScene& coarse,
+                       const FixedScene& fine) const;
   /// The work of a pose table, which has no error here: `block_of` as in a urad_pose_table.
   RowWork table_work(const std::vector<std::uint16_t>& block_of) const;
 
@@ -43,6 +48,7 @@ class Sample {
   const Scene& scene_;
   const FixedScene& fixed_;
   std::vector<double> light_;
+  std::vector<std::size_t> reflecting_;
   std::vector<std::size_t> receivers_, shooters_;
   std::vector<std::size_t> more_shooters_;  ///< for methods whose near pairs are few and dear
   std::vector<double> chance_;              ///< share of all shots, by sampled shooter
