@@ -336,6 +336,13 @@ TEST_CASE("null arguments of geometry that moves, and boxes that are none") {
   urad_scene other = *room.scene;
   other.patch_count = 53;
   CHECK(urad_radiosity_move_end(&room.state, &move, &other, nullptr) == URAD_BAD_ARGUMENT);
+  const urad_visibility sight{};
+  other = *room.scene;
+  other.abi = URAD_SCENE_ABI_SIGHT, other.visibility = &sight;  // of where things were
+  CHECK(urad_radiosity_move_end(&room.state, &move, &other, nullptr) == URAD_BAD_ARGUMENT);
+  room.state.status = URAD_DIVERGES;
+  CHECK(urad_radiosity_move_end(&room.state, &move, nullptr, nullptr) == URAD_DIVERGES);
+  room.state.status = URAD_OK;
   CHECK(urad_radiosity_move_end(&room.state, &move, nullptr, nullptr) == URAD_OK);
   CHECK(urad_radiosity_audit(&room.state, nullptr) == 1);
 }

@@ -9,6 +9,7 @@
 
 #include "form_factor/kernel.hpp"
 #include "scene/fixed_scene.hpp"
+#include "urad/clip.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/grid.hpp"
 
@@ -147,6 +148,16 @@ TEST_CASE("pairs that face away, lie in one plane or behind give exactly 0") {
     CHECK(engine_factor(p, q, urad::Kernel::moment) == 0);
     CHECK(engine_factor(q, p, urad::Kernel::moment) == 0);
   }
+  const host::FixedScene scene = host::FixedScene::of_polygons({p, away}, {});
+  const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
+  urad::Pair pair;
+  CHECK_FALSE(urad::pair_invariants(*i.shape, i.centroid, *j.shape, j.centroid, &pair));
+  // Nothing to cut: the plane of the one does not meet the other.
+  urad_shape shape{};
+  urad_point centroid{7, 7, 7};
+  CHECK_FALSE(
+      urad::clipped_shape(scene.pod(), j, i.centroid, i.shape->normal_q30, &shape, &centroid));
+  CHECK(centroid.x == 7);
 }
 
 TEST_CASE("a distance just below a power of two does not overflow the direction") {
