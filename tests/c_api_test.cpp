@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "hand_made_scene.hpp"
 #include "radiosity_scene.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/form_factor.hpp"
@@ -311,4 +312,24 @@ TEST_CASE("C: a hemicube has room for the greatest polygon of a scene, patch or 
   CHECK(bytes(4, 7, 0) == four + 3 * sizeof(urad_point));
   CHECK(bytes(9, 7, 4) == four + 5 * sizeof(urad_point));
   CHECK(bytes(4, 3, 12) == four + 8 * sizeof(urad_point));
+}
+
+TEST_CASE("C: a hemicube counts a shooter's own wall as such, from its first patch to its last") {
+  const host::FixedScene cube(test::cube(2));
+  static constexpr auto cells = urad::make_hemicube_table<16>();
+  const urad_hemicube_table table{16, cells.top, cells.side};
+  std::vector<uint64_t> memory(urad_hemicube_source_bytes(&cube.pod(), 16, 0, 0) / 8 + 1);
+  urad_counters counters{};
+  urad_source source{};
+  REQUIRE(urad_hemicube_source_init(&source, &cube.pod(), &table, 0, 0, &counters, memory.data(),
+                                    memory.size() * 8) == URAD_OK);
+  for (uint16_t shooter = 3; shooter < 9; ++shooter) {
+    CAPTURE(shooter);
+    uint32_t f[4];
+    counters = {};
+    REQUIRE(source.fill(source.context, shooter, 1, 4, 4, f) == URAD_OK);
+    const bool own = shooter >= 4 && shooter < 8;  // of the second wall
+    CHECK(counters.skipped_same == (own ? 3 : 0));
+    CHECK(counters.evaluated == (own ? 0 : 4));
+  }
 }
