@@ -233,6 +233,9 @@ TEST_CASE("bad arguments are refused") {
         urad::Status::bad_argument);
   CHECK(urad::hybrid_init(&hybrid, &hemicube, urad::Kernel::moment, nullptr, 1025, 0) ==
         urad::Status::bad_argument);
+  for (const uint16_t rays : {uint16_t{1}, uint16_t{1024}})
+    CHECK(urad::hybrid_init(&hybrid, &hemicube, urad::Kernel::moment, nullptr, rays, 0) ==
+          urad::Status::ok);
   REQUIRE(urad::hybrid_init(&hybrid, &hemicube, urad::Kernel::moment, nullptr, 16, 0) ==
           urad::Status::ok);
   CHECK(urad::hybrid_fill(&hybrid, 294, 1, 49, 49, f_uq32) == URAD_BAD_ARGUMENT);

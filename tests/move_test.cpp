@@ -374,3 +374,33 @@ TEST_CASE("light beyond a patch's power is refused before it wraps") {
   CHECK(urad::radiosity_audit(light.state, nullptr));
   CHECK(urad_radiosity_step(&light.state) == URAD_OVERFLOW);
 }
+
+TEST_CASE("the outline of a grid in any direction, and the box around it") {
+  urad_grid grid{};
+  constexpr int kU = 3, kV = 5;
+  REQUIRE(urad::grid_make({1000, -2000, 3000}, {400, 500, -600}, {-700, 800, 900}, kU, kV, &grid) ==
+          Status::ok);
+  urad_point vertex[6] = {};
+  urad_blocker blocker{};
+  blocker.first_vertex = 1;
+  blocker.surface = 7;
+  urad::blocker_make(grid, vertex, &blocker);
+  const urad_point u{kU * 400, kU * 500, kU * -600}, v{kV * -700, kV * 800, kV * 900};
+  const auto corner = [&](int of_u, int of_v) {
+    return urad_point{1000 + of_u * u.x + of_v * v.x, -2000 + of_u * u.y + of_v * v.y,
+                      3000 + of_u * u.z + of_v * v.z};
+  };
+  const auto same = [](const urad_point& a, const urad_point& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  };
+  for (const urad_point& expected : {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)})
+    CHECK(std::count_if(vertex + 1, vertex + 5,
+                        [&](const urad_point& p) { return same(p, expected); }) == 1);
+  CHECK(same(vertex[0], {0, 0, 0}));
+  CHECK(same(vertex[5], {0, 0, 0}));
+  CHECK(same(blocker.low, {1000 + v.x, -2000, 3000 + u.z}));
+  CHECK(same(blocker.high, {1000 + u.x, -2000 + u.y + v.y, 3000 + v.z}));
+  CHECK(blocker.vertex_count == 4);
+  CHECK(blocker.first_vertex == 1);
+  CHECK(blocker.surface == 7);
+}
