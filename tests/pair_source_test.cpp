@@ -38,6 +38,8 @@ TEST_CASE("evaluated and skipped pairs add up, and any skip switched off leaves 
     const host::EngineRows all = rows(fixed, std::string("net:") + name, 0);
     CHECK(accounted(all.counters) == n * (n - 1));
     CHECK(all.counters.far_pairs > 0);
+    CHECK(all.counters.networks ==
+          all.counters.evaluated - all.counters.far_pairs - all.counters.near_pairs);
     CHECK(all.counters.skipped_same > 0);
     for (const std::uint32_t off :
          {urad::skip_off_far, urad::skip_off_facing, urad::skip_off_same}) {

@@ -145,3 +145,20 @@ TEST_CASE("row sums far above 1 are cut: powers stay in range, the ledger holds"
   CHECK(solve.state.counters.rows_cut == solve.state.counters.shots);
   CHECK(solve.state.counters.worst_row_uq16 == 32767);
 }
+
+TEST_CASE("a row that is cut lets through one and a half, in the order of the patches") {
+  TableScene room(2, 4, 0);
+  room.set(0, {0, 0, 0}, {1 << 16, 0, 0});
+  room.set(1, {1, 1, 1}, {0, 0, 0});
+  room.pod.log2_power_q24 = 8 << 24;
+  for (auto& polygon : room.polygon) polygon.shape.log2_area_q24 = 0;
+  room.material[0].exitance[0] = 1 << 16;
+  for (std::size_t j = 4; j < 8; ++j) room.row[0][j] = 0xA0000000u;  // 5/8 each
+  Solve solve(room);
+  REQUIRE(urad::radiosity_step(&solve.state) == urad::Status::ok);
+  const double shot = 256.0 * (1 << 16);
+  const double part[4] = {0.625, 0.625, 0.25, 0};
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(solve.state.unshot[3 * (4 + k)] / shot == doctest::Approx(part[k]).epsilon(1e-3));
+  CHECK(solve.state.counters.rows_cut == 1);
+}

@@ -92,3 +92,24 @@ TEST_CASE("lights mix the same for odd and even numbers of patches") {
     }
   }
 }
+
+TEST_CASE("a lamp of one unit has all of its light to come") {
+  test::TableScene scene(2, 1, URAD_SCENE_CLOSED);
+  scene.set(0, {0.5, 0.5, 0.5}, {1, 0, 0});
+  scene.set(1, {0.5, 0.5, 0.5}, {0, 0, 0});
+  scene.row[0][1] = scene.row[1][0] = 0xFFFFFFFFu;
+  test::Solve solve(scene);
+  REQUIRE(solve.state.remaining == 1);
+  CHECK(urad::radiosity_error_uq32(solve.state) == 0xFFFFFFFFu);
+}
+
+TEST_CASE("all bounces together are taken for a thousand at most, where nothing absorbs") {
+  test::TableScene scene(2, 1, URAD_SCENE_CLOSED);
+  for (int s = 0; s < 2; ++s) scene.set(s, {1, 1023.0 / 1024, 0.5}, {1000, 1000, 1000});
+  scene.pod.log2_power_q24 = 8 << 24;
+  test::Solve solve(scene);
+  REQUIRE(solve.status == urad::Status::ok);
+  CHECK(urad::radiosity_ambient(solve.state, 0) == doctest::Approx(1000 * 1024).epsilon(1e-4));
+  CHECK(urad::radiosity_ambient(solve.state, 1) == doctest::Approx(1000 * 1024).epsilon(1e-4));
+  CHECK(urad::radiosity_ambient(solve.state, 2) == doctest::Approx(1000 * 2).epsilon(1e-4));
+}
