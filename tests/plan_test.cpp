@@ -192,11 +192,11 @@ TEST_CASE("limits decide what fits, and the cheapest of that is recommended") {
 
 TEST_CASE("where nothing is accurate enough, the error that would do does") {
   const host::Scene scene = host::load_scene("cornell");
-  const host::Plan fine = plan_of(scene, SIZE_MAX, 60000, 1e-5);
+  const host::Plan fine = plan_of(scene, SIZE_MAX, 65536, 1e-5);
   CHECK_FALSE(fine.recommended);
   const std::size_t at = fine.advice.find("--error ");
   REQUIRE(at != std::string::npos);
-  CHECK(plan_of(scene, SIZE_MAX, 60000, std::stod(fine.advice.substr(at + 8))).recommended);
+  CHECK(plan_of(scene, SIZE_MAX, 65536, std::stod(fine.advice.substr(at + 8))).recommended);
 }
 
 TEST_CASE("an item buffer takes the highest bands that the RAM holds") {
