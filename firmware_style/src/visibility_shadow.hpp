@@ -83,8 +83,8 @@ class Edges {
 Shadow shadow(const urad_scene& scene, const urad_blocker& blocker, int turn, const Reach& from,
               const Reach& to, Edges* edges, uint8_t* first) noexcept;
 
-/// The same for one ray, by coarse points of patches, the scale being that of both and the blocker: `none` and `all` are what
-/// stands_across() says.
+/// The same for one ray, by coarse points of the two patches; the scale is that of both and the
+/// blocker. `none` and `all` are what stands_across() says.
 Shadow ray_shadow(const urad_scene& scene, const urad_blocker& blocker, int turn,
                   const CoarseScale& scale, Edges edges, const urad_point& from,
                   const urad_point& to) noexcept;
