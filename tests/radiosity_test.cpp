@@ -305,6 +305,9 @@ TEST_CASE("init refuses and writes nothing") {
   CHECK(memory == untouched);
   CHECK(test::same_bytes(state, blank));
 
+  constexpr unsigned kAllFlags = 2 * URAD_SKIP_OFF_UNSHOT - 1;
+  CHECK(init(&room.pod, source, kAllFlags, 9, 0, bytes) == Status::ok);
+  CHECK(init(&room.pod, source, kAllFlags + 1, 9, 0, bytes) == Status::bad_argument);
   CHECK(init(&room.pod, source, 0, 9, 0, bytes) == Status::ok);
   CHECK(memory.back() == 0xA5A5A5A5u);  // exactly radiosity_bytes are used
 }

@@ -177,6 +177,7 @@ TEST_CASE("what the check need not look at may be absent, and an end of a range 
       {"greatest exitance", [](Plain& p) { p.material.exitance[0] = kOne; }},
       {"reflectance 1", [](Plain& p) { p.material.reflectance_uq15[1] = 32768; }},
       {"a vertex at the limit", [](Plain& p) { p.vertex[6].y = -URAD_COORDINATE_MAX; }},
+      {"a loop to the end of the table", [](Plain& p) { p.polygon[1].first_vertex = 4; }},
       {"the last surface", [](Plain& p) { p.blocker.surface = 1; }}};
   for (const Wrong& case_ : fine) {
     Plain plain;
