@@ -46,10 +46,10 @@ struct Task {
   FloatNet start() const { return random_start(request.hidden, seed, 0); }
 };
 
-/// Keeps the net that is best on the validation pairs.
+/// Keeps the net that is best on the validation pairs, from the start on.
 class Best {
  public:
-  explicit Best(const Task& task) : task_(task) {}
+  explicit Best(const Task& task) : task_(task) { look(task.start()); }
 
   void look(const FloatNet& net) {
     const double loss = task_.validation.value(net, kRobust);
