@@ -44,14 +44,18 @@ TEST_CASE("L-BFGS and Adam start where Levenberg-Marquardt does, and get somewhe
   CHECK(host::training_table(trials).find("| Levenberg-Marquardt |") != std::string::npos);
 }
 
-TEST_CASE("an input held at 0 is missed") {
+TEST_CASE(
+    "each input held at 0 changes what is reached, and some are missed even by a short training") {
   MESSAGE("seed ", kSeed);
   const auto trials = host::try_inputs(small_request());
   REQUIRE(trials.size() == 1 + urad::kPairInputs);
   int missed = 0;
-  for (const host::TrainingTrial& trial : trials)
-    missed += trial.training[0] > trials.front().training[0];
-  CHECK(missed > urad::kPairInputs / 2);
+  for (std::size_t k = 1; k < trials.size(); ++k) {
+    CAPTURE(trials[k].name);
+    CHECK(trials[k].training[0] != trials[0].training[0]);
+    missed += trials[k].training[0] > trials[0].training[0];
+  }
+  CHECK(missed > 0);
 }
 
 TEST_CASE("the slope of the objective is the model's") {
