@@ -48,6 +48,14 @@ struct Cube {
   }
 };
 
+/// Lets the light of a solve be changed; the memory that takes has to live as long.
+std::vector<std::int32_t> relight(Solve* solve) {
+  std::vector<std::int32_t> memory(3 * std::size_t(solve->state.scene->patch_count));
+  REQUIRE(urad::radiosity_relight_init(&solve->state, memory.data(), memory.size() * 4) ==
+          Status::ok);
+  return memory;
+}
+
 void light_column(const Cube& cube, host::Relighting* light, int column) {
   const host::Surface& lamp = cube.lamp();
   for (int k = 0; k < lamp.patch_count; ++k) {
@@ -109,9 +117,7 @@ TEST_CASE("after any changes: the light of a solve from the start, and a ledger 
     room.fill_reciprocal(random, 1);
     test::furnish(&room);
     Solve solve(room, flags);
-    std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
-    REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
-            Status::ok);
+    const std::vector<std::int32_t> memory = relight(&solve);
     solve.run(0.01);
     for (int change = 0; change < 12; ++change) {
       CAPTURE(flags);
@@ -194,9 +200,7 @@ TEST_CASE("a wall that was black reflects as from the start, in any channel") {
     test::furnish(&room);
     room.set(2, {0, 0.6, 0}, {0, 0, 0});
     Solve solve(room, flags);
-    std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
-    REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
-            Status::ok);
+    const std::vector<std::int32_t> memory = relight(&solve);
     std::uint32_t shots = 0;
     CHECK(urad::radiosity_steps(&solve.state, 60, 0, &shots) == Status::ok);  // on the way
     const std::uint16_t grey[3] = {20000, 15000, 24000}, black[3] = {0, 0, 0};
@@ -226,9 +230,7 @@ TEST_CASE("black channels one by one: those that stay black reflect nothing") {
     CAPTURE(channel);
     room.set(2, {0, 0, 0}, {0, 0, 0});
     Solve solve(room);
-    std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
-    REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
-            Status::ok);
+    const std::vector<std::int32_t> memory = relight(&solve);
     solve.run(0.01);
     std::uint16_t rho[3] = {0, 0, 0};
     rho[channel] = 20000;
@@ -249,9 +251,7 @@ TEST_CASE("a source that fails while a wall is painted leaves everything as it w
   test::furnish(&room);
   room.set(2, {0, 0.6, 0}, {0, 0, 0});
   Solve solve(room);
-  std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
-  REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
-          Status::ok);
+  const std::vector<std::int32_t> memory = relight(&solve);
   const auto paint = [&](std::uint16_t red, std::uint16_t green, std::uint16_t blue) {
     const std::uint16_t rho[3] = {red, green, blue};
     return urad::radiosity_set_reflectance(&solve.state, &room.material[2], rho);
@@ -294,9 +294,7 @@ TEST_CASE("a wall that would reflect more than a patch can hold is not painted")
   for (std::size_t k = 0; k < 9; ++k) room.row[k][9] = 1u << 31, room.row[9][k] = 1u << 31;
   Solve solve(room);
   REQUIRE(solve.status == Status::ok);
-  std::vector<std::int32_t> memory(3 * std::size_t(room.patches()));
-  REQUIRE(urad::radiosity_relight_init(&solve.state, memory.data(), memory.size() * 4) ==
-          Status::ok);
+  const std::vector<std::int32_t> memory = relight(&solve);
   solve.run(1e-3);
   REQUIRE(solve.status == Status::ok);
   const urad_radiosity before = solve.state;

@@ -15,7 +15,7 @@ int32_t network_run(const urad_net& net, const int16_t* input_q15) noexcept;
 /// (|.| < 2.2) stay within Q7.24. y itself may be hundreds where the gate leaves little of it.
 inline constexpr int32_t kMostWord = 61;
 constexpr int32_t word_q24(int32_t y_q16, uint16_t gate_uq16) noexcept {
-  if ((magnitude(y_q16) >> 16) * gate_uq16 >= (uint32_t{kMostWord} - 1) << 16)
+  if ((magnitude(y_q16) >> 16) * gate_uq16 >= uint32_t{kMostWord - 1} << 16)
     return (y_q16 < 0 ? -kMostWord : kMostWord) * (1 << 24);
   return mul_round(y_q16, gate_uq16, 8);
 }

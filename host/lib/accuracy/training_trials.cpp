@@ -13,14 +13,12 @@
 #include "base/error.hpp"
 #include "network/general_pairs.hpp"
 #include "network/random.hpp"
-#include "network/trainer.hpp"
+#include "network/train_net.hpp"
 
 namespace host {
 
 namespace {
 
-constexpr double kFarRho = 0.01, kRobust = 0.03, kDecay = 3e-7;  // those of train --general
-constexpr int kSteps = 140;
 constexpr std::size_t kBatches = 32;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -29,21 +27,33 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// What the ways have in common: data, loss, a random start.
 struct Task {
-  const TrainingTrialRequest& request;
-  std::uint64_t seed;
+  TrainerSettings settings;
+  double robust;
   GeneralDataset data;
   Normalisation scaling;
   Objective training, validation;
 
-  Task(const TrainingTrialRequest& asked, std::uint64_t s, GeneralDataset pairs)
-      : request(asked),
-        seed(s),
+  /// The settings of `urad train --general` with as many steps from a single start.
+  Task(TrainerSettings general, GeneralDataset pairs)
+      : settings(std::move(general)),
+        robust(settings.stages.front().robust),
         data(std::move(pairs)),
         scaling(normalisation(data.training)),
-        training(data.training, scaling, asked.threads),
-        validation(data.validation, scaling, asked.threads) {}
+        training(data.training, scaling, settings.threads),
+        validation(data.validation, scaling, settings.threads) {
+    int steps = 0;
+    for (const Stage& stage : settings.stages) steps += stage.iterations;
+    settings.stages = {{1, steps, robust}};
+  }
 
-  FloatNet start() const { return random_start(request.hidden, seed, 0); }
+  FloatNet start() const { return random_start(settings.hidden, settings.seed, 0); }
+
+  /// The loss with decay, and its derivatives.
+  double loss(const Objective& objective, const FloatNet& net, Eigen::VectorXd* slope) const {
+    const double data_loss = objective.slope(net, robust, slope);
+    *slope = 2 * (settings.decay * net.parameters - *slope);
+    return data_loss + settings.decay * net.parameters.squaredNorm();
+  }
 };
 
 /// Keeps the net that is best on the validation pairs, from the start on.
@@ -52,8 +62,8 @@ class Best {
   explicit Best(const Task& task) : task_(task) { look(task.start()); }
 
   void look(const FloatNet& net) {
-    const double loss = task_.validation.value(net, kRobust);
-    if (loss < validation_) validation_ = loss, training_ = task_.training.value(net, kRobust);
+    const double loss = task_.validation.value(net, task_.robust);
+    if (loss < validation_) validation_ = loss, training_ = task_.training.value(net, task_.robust);
   }
   void add_to(TrainingTrial* trial) const {
     trial->training.push_back(std::sqrt(training_));
@@ -66,13 +76,7 @@ class Best {
 };
 
 void by_marquardt(const Task& task, TrainingTrial* trial) {
-  TrainerSettings settings;
-  settings.hidden = task.request.hidden;
-  settings.seed = task.seed;
-  settings.decay = kDecay;
-  settings.threads = task.request.threads;
-  settings.stages = {{1, std::max(1, int(kSteps * task.request.effort)), kRobust}};
-  const auto net = train(task.data.training, task.data.validation, settings);
+  const auto net = train(task.data.training, task.data.validation, task.settings);
   Best best(task);
   best.look(unfold_normalisation(*net, task.scaling.mean, task.scaling.deviation));
   best.add_to(trial);
@@ -81,23 +85,20 @@ void by_marquardt(const Task& task, TrainingTrial* trial) {
 void by_lbfgs(const Task& task, double seconds, TrainingTrial* trial) {
   FloatNet net = task.start();
   Best best(task);
-  const auto loss = [&](const std::vector<double>& p, std::vector<double>& slope) {
+  using Loss = std::function<double(const std::vector<double>&, std::vector<double>&)>;
+  Loss loss = [&](const std::vector<double>& p, std::vector<double>& slope) {
     net.parameters = Eigen::Map<const Eigen::VectorXd>(p.data(), Eigen::Index(p.size()));
-    Eigen::VectorXd gradient;
-    const double data = task.training.slope(net, kRobust, &gradient);
-    gradient = -2 * gradient + 2 * kDecay * net.parameters;
-    if (!slope.empty()) Eigen::Map<Eigen::VectorXd>(slope.data(), gradient.size()) = gradient;
+    Eigen::VectorXd slopes;
+    const double value = task.loss(task.training, net, &slopes);
+    if (!slope.empty()) slope.assign(slopes.begin(), slopes.end());
     best.look(net);
-    return data + kDecay * net.parameters.squaredNorm();
+    return value;
   };
-  const std::function<double(const std::vector<double>&, std::vector<double>&)> called = loss;
-  std::vector<double> p(net.parameters.data(), net.parameters.data() + net.parameters.size());
+  std::vector<double> p(net.parameters.begin(), net.parameters.end());
   nlopt::opt optimiser(nlopt::LD_LBFGS, unsigned(p.size()));
-  optimiser.set_min_objective(
-      [](const std::vector<double>& x, std::vector<double>& slope, void* f) {
-        return (*static_cast<decltype(&called)>(f))(x, slope);
-      },
-      const_cast<void*>(static_cast<const void*>(&called)));
+  optimiser.set_min_objective([](const std::vector<double>& x, std::vector<double>& slope,
+                                 void* f) { return (*static_cast<Loss*>(f))(x, slope); },
+                              &loss);
   optimiser.set_vector_storage(20);
   optimiser.set_maxtime(seconds);
   double least = 0;
@@ -123,7 +124,7 @@ std::vector<Objective> batches_of(const Task& task, Random& random) {
 
 void by_adam(const Task& task, double seconds, TrainingTrial* trial) {
   constexpr double kRate = 0.01, kMean = 0.9, kSquare = 0.999, kTiny = 1e-8;
-  Random random(task.seed, 1);
+  Random random(task.settings.seed, 1);
   const std::vector<Objective> batches = batches_of(task, random);
   FloatNet net = task.start();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(net.parameters.size()), square = mean;
@@ -133,11 +134,10 @@ void by_adam(const Task& task, double seconds, TrainingTrial* trial) {
     const double done = seconds_since(start) / seconds;
     if (done >= 1) break;
     const Objective& batch = batches[std::size_t(random.below(int(kBatches)))];
-    Eigen::VectorXd gradient;
-    batch.slope(net, kRobust, &gradient);
-    gradient = -2 * gradient + 2 * kDecay * net.parameters;
-    mean = kMean * mean + (1 - kMean) * gradient;
-    square = kSquare * square + (1 - kSquare) * gradient.cwiseAbs2();
+    Eigen::VectorXd slope;
+    task.loss(batch, net, &slope);
+    mean = kMean * mean + (1 - kMean) * slope;
+    square = kSquare * square + (1 - kSquare) * slope.cwiseAbs2();
     const double rate = kRate * 0.5 * (1 + std::cos(std::numbers::pi * done));  // falls to zero
     net.parameters.array() -=
         rate * (mean.array() / (1 - std::pow(kMean, double(step)))) /
@@ -148,8 +148,13 @@ void by_adam(const Task& task, double seconds, TrainingTrial* trial) {
   best.add_to(trial);
 }
 
-Task task_of(const TrainingTrialRequest& request, std::uint64_t seed) {
-  return {request, seed, general_dataset(kFarRho, seed, 0.6 * request.effort, request.threads)};
+TrainRequest training_of(const TrainingTrialRequest& request, std::uint64_t seed) {
+  TrainRequest training;
+  training.hidden = request.hidden;
+  training.seed = seed;
+  training.effort = request.effort;
+  training.threads = request.threads;
+  return training;
 }
 
 }  // namespace
@@ -160,7 +165,8 @@ std::vector<TrainingTrial> try_optimisers(const TrainingTrialRequest& request) {
                          "L-BFGS, five times as long", "Adam, five times as long"};
   for (std::size_t k = 0; k < trials.size(); ++k) trials[k].name = names[k];
   for (const std::uint64_t seed : request.seeds) {
-    const Task task = task_of(request, seed);
+    const TrainRequest training = training_of(request, seed);
+    const Task task(general_settings(training), general_training(training));
     const auto start = std::chrono::steady_clock::now();
     by_marquardt(task, &trials[0]);
     const double seconds = seconds_since(start);
@@ -183,14 +189,15 @@ std::vector<TrainingTrial> try_inputs(const TrainingTrialRequest& request) {
   for (int n = 0; n < urad::kPairInputs; ++n)
     trials[std::size_t(n) + 1].name = fmt::format("without {}: {}", n, kInputs[n]);
   for (const std::uint64_t seed : request.seeds) {
-    const Task whole = task_of(request, seed);
+    const TrainRequest training = training_of(request, seed);
+    const GeneralDataset whole = general_training(training);
     for (std::size_t k = 0; k < trials.size(); ++k) {
-      GeneralDataset data = whole.data;
+      GeneralDataset data = whole;
       if (k > 0)
         for (auto* set : {&data.training, &data.validation})
           for (Sample& sample : set->samples) sample.input_q15[k - 1] = 0;
       const auto start = std::chrono::steady_clock::now();
-      by_marquardt({request, seed, std::move(data)}, &trials[k]);
+      by_marquardt({general_settings(training), std::move(data)}, &trials[k]);
       trials[k].seconds += seconds_since(start) / double(request.seeds.size());
     }
   }

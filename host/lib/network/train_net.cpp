@@ -203,9 +203,11 @@ std::optional<NetFile> train_scene_net(const Scene& scene, const TrainRequest& r
   return file;
 }
 
-std::optional<NetFile> train_general_net(const TrainRequest& request) {
-  const GeneralDataset dataset =
-      general_dataset(request.far_rho, request.seed, 0.6 * request.effort, request.threads);
+GeneralDataset general_training(const TrainRequest& request) {
+  return general_dataset(request.far_rho, request.seed, 0.6 * request.effort, request.threads);
+}
+
+TrainerSettings general_settings(const TrainRequest& request) {
   TrainerSettings settings;
   settings.hidden = request.hidden;
   settings.seed = request.seed;
@@ -213,8 +215,13 @@ std::optional<NetFile> train_general_net(const TrainRequest& request) {
   settings.threads = request.threads;
   settings.stages = stages(
       {{6, 20, kGeneralRobust}, {3, 40, kGeneralRobust}, {1, 80, kGeneralRobust}}, request.effort);
+  return settings;
+}
+
+std::optional<NetFile> train_general_net(const TrainRequest& request) {
+  const GeneralDataset dataset = general_training(request);
   Session session(request, 1);
-  const auto net = session.train(dataset.training, dataset.validation, settings);
+  const auto net = session.train(dataset.training, dataset.validation, general_settings(request));
   if (!net) return std::nullopt;
 
   const QuantisedNet wide = with_near_rho(quantise(*net, 16, request.far_rho, {}), kGeneralNearRho);

@@ -3,7 +3,9 @@
 #include <functional>
 #include <optional>
 
+#include "network/general_pairs.hpp"
 #include "network/net_json.hpp"
+#include "network/trainer.hpp"
 #include "scene/scene.hpp"
 
 namespace host {
@@ -25,6 +27,10 @@ struct TrainRequest {
 /// on all configurations, its held-out error comes from a second net trained on 80 % of them.
 /// Nothing when stopped. Throws Error.
 std::optional<NetFile> train_scene_net(const Scene& scene, const TrainRequest& request);
+
+/// What train_general_net() learns from, and how.
+GeneralDataset general_training(const TrainRequest& request);
+TrainerSettings general_settings(const TrainRequest& request);
 
 /// A net for any scene, from random pairs.
 std::optional<NetFile> train_general_net(const TrainRequest& request);
