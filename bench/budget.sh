@@ -111,6 +111,7 @@ END
   row "far pair, network skipped" - count pair_network_far
   row "pair by auto, 1 %, without a network" - count pair_auto
   row "one point of an exact sum" - count pair_point
+  row "pair by the network of 1996 (24-50-1)" - count pair_legacy
   row "pair by the network, in runs" 600 per_pair_of_run run_network
   row "pair by the network of 1996 (24-50-1), in runs" - per_pair_of_run run_legacy
   row "run of 49 by the network" - count run_network

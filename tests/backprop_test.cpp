@@ -131,7 +131,7 @@ TEST_CASE("both scalings are undone, and log scaling refuses what it has no imag
       CHECK(host::legacy_unscaled(scaling, host::legacy_scaled(scaling, f)) ==
             doctest::Approx(f).epsilon(1e-6));
   CHECK_THROWS_AS(host::legacy_scaled(LegacyScaling::log, 0), host::Error);
-  CHECK_THROWS_AS(host::legacy_input({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}},
+  CHECK_THROWS_AS(host::legacy_input({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {.5, 1, 0}, {0, 1, 0}}, {}},
                                      {{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {}}),
                   host::Error);
 }

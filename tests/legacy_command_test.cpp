@@ -28,22 +28,27 @@ const std::string kWeights = URAD_SOURCE_DIR "/weights/legacy_linear50.json";
 TEST_CASE("pairs get the network's integers, or the reason why it cannot read them") {
   const std::string folder = scratch("legacy_pairs");
   const std::string near = "0 0 0;1 0 0;1 1 0;0 1 0", far = "0 0 1;0 1 1;1 1 1;1 0 1";
-  host::write_file_atomically(folder + "/pairs.csv",
-                              "id,p,q\nfacing," + near + "," + far + "\nback," + far + "," +
-                                  "0 0 1;1 0 1;1 1 1;0 1 1\ntriangle,0 0 0;1 0 0;0 1 0," + far +
-                                  "\noutside," + near + ",0 0 2;0 1 2;1 1 2;1 0 2\n");
+  host::write_file_atomically(
+      folder + "/pairs.csv",
+      "id,p,q\nfacing," + near + "," + far + "\nback," + far + "," +
+          "0 0 1;1 0 1;1 1 1;0 1 1\npentagon,0 0 0;1 0 0;1 1 0;.5 1 0;0 .5 0," + far +
+          "\noutside," + near + ",0 0 2;0 1 2;1 1 2;1 0 2\ntriangle," + near +
+          ",0 0 1;0 1 1;1 1 1\n");
   REQUIRE(urad("formfactor --method legacy:linear50 --in " + folder + "/pairs.csv --out " + folder +
                "/f.csv")
               .status == 0);
   const host::CsvTable f = host::read_csv(folder + "/f.csv");
-  REQUIRE(f.rows.size() == 4);
+  REQUIRE(f.rows.size() == 5);
   const auto net = host::legacy_from_json(host::read_file(kWeights), kWeights);
   const host::LegacyInput input{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
                                 0, 0, 1, 0, 1, 1, 1, 1, 1, 1, 0, 1};
+  host::LegacyInput last_twice = input;
+  last_twice[22] = 1;
   CHECK(std::stod(f.rows[0].cells[1]) == host::LegacyFixed(net.fixed).form_factor(input));
   CHECK(f.rows[1].cells[1] == "0");
   CHECK(f.rows[2].cells[2] == "unsupported_not_a_quad");
   CHECK(f.rows[3].cells[2] == "unsupported_outside_unit_cube");
+  CHECK(std::stod(f.rows[4].cells[1]) == host::LegacyFixed(net.fixed).form_factor(last_twice));
 }
 
 TEST_CASE("the cube is solved by a shipped network and by its file, with the same light") {

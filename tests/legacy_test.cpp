@@ -164,7 +164,25 @@ TEST_CASE("a run over a grid, its parts, and single patches give the same bits")
   CHECK(source.counters().evaluated == 40 * 245 * 2);
 }
 
-TEST_CASE("scenes of triangles, and damaged networks, are refused") {
+TEST_CASE("a triangle is read as a quad with its last corner twice") {
+  const host::LegacyFixed net(host::round_legacy(random_net(30, host::LegacyScaling::linear, 2)));
+  const host::NetChoice nets = choice(net.pod());
+  // The box of both is the unit cube, which the network then reads as it is.
+  const host::Polygon low{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+  const host::Polygon high{{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {}};
+  const host::FixedScene scene = host::FixedScene::of_polygons({low, high}, {});
+  const host::EngineSource source(scene, host::parse_method("legacy"), nets, {});
+  std::uint32_t f[2] = {};
+  const host::Polygon* const polygon[] = {&low, &high};
+  for (std::uint16_t shooter : {std::uint16_t{0}, std::uint16_t{1}}) {
+    source.row(shooter, f);
+    const host::LegacyInput input = host::legacy_input(*polygon[shooter], *polygon[1 - shooter]);
+    CHECK(f[1 - shooter] > 0);
+    CHECK(f[1 - shooter] / 4294967296.0 == doctest::Approx(net.form_factor(input)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("scenes of pentagons, and damaged networks, are refused") {
   const host::LegacyFixed good(host::round_legacy(random_net(5, host::LegacyScaling::log, 1)));
   CHECK(urad::legacy_check(&good.pod()) == urad::Status::ok);
   CHECK(urad::legacy_check(nullptr) == urad::Status::bad_argument);
@@ -190,10 +208,12 @@ TEST_CASE("scenes of triangles, and damaged networks, are refused") {
     n.output_bias = INT32_MAX;  // a sum that overflows, checksum right
     n.crc32 = urad::legacy_crc32(n);
   }));
-  const host::FixedScene triangles = host::FixedScene::of_polygons(
-      {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}}, {});
+  const host::FixedScene pentagons =
+      host::FixedScene::of_polygons({{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}}, {}},
+                                     {{{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}}},
+                                    {});
   const host::NetChoice nets = choice(good.pod());
-  CHECK_THROWS_AS(host::EngineSource(triangles, host::parse_method("legacy"), nets, {}),
+  CHECK_THROWS_AS(host::EngineSource(pentagons, host::parse_method("legacy"), nets, {}),
                   host::Error);
   urad::LegacySource source;
   urad_counters counters{};

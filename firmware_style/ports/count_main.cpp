@@ -147,6 +147,24 @@ bool table(port::Writer&, uint16_t) { return true; }
 #ifdef URAD_LEGACY_HEADER
 int32_t g_legacy_memory[urad::legacy_bytes(URAD_LEGACY_MAX_HIDDEN) / 4];
 
+/// One pair by itself: all 24 coordinates weighed.
+int32_t legacy_pair(uint16_t shooter, uint16_t receiver) {
+  urad_point vertex[2][4];
+  for (uint16_t k = 0; k < 4; ++k) {
+    vertex[0][k] = urad::patch_vertex(kScene, urad::patch_at(kScene, shooter), k);
+    vertex[1][k] = urad::patch_vertex(kScene, urad::patch_at(kScene, receiver), k);
+  }
+  const urad_legacy_net& net = URAD_LEGACY_NAME;
+  for (int h = 0; h < net.hidden; ++h) {
+    const int16_t* weight = net.hidden_weight + h * URAD_LEGACY_INPUTS;
+    const int bits = net.hidden_shift[h];
+    g_legacy_memory[h] = net.hidden_bias[h] + urad::legacy_half_q23(weight, bits, vertex[0]) +
+                         urad::legacy_half_q23(weight + URAD_LEGACY_INPUTS / 2, bits, vertex[1]);
+  }
+  return int32_t(
+      urad::legacy_form_factor_uq32(net, urad::legacy_output_uq15(net, g_legacy_memory)));
+}
+
 /// The report's own network. Its weights are fixed-point and its first layer is factored: 1996 had
 /// neither.
 bool legacy(port::Writer& labels, uint16_t shooter) {
@@ -156,6 +174,9 @@ bool legacy(port::Writer& labels, uint16_t shooter) {
     return false;
   for (uint16_t s = 1; s < kScene.surface_count; ++s) {
     const urad_surface& surface = kScene.surface[s];
+    for (uint16_t k = 0; k < surface.patch_count; ++k)
+      measure(labels, "pair_legacy",
+              [&] { g_sink = legacy_pair(shooter, uint16_t(surface.first_patch + k)); });
     const uint16_t count = surface.patch_count < kLongestRun ? surface.patch_count : kLongestRun;
     measure(labels, "run_legacy", [&] {
       g_sink = urad::legacy_fill(&source, shooter, s, surface.first_patch, count, g_factors);

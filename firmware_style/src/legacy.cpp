@@ -37,7 +37,9 @@ struct Corners {
 
 Corners corners_of(const urad_scene& scene, const Patch& patch) noexcept {
   Corners corners;
-  for (uint16_t k = 0; k < 4; ++k) corners.vertex[k] = patch_vertex(scene, patch, k);
+  const uint16_t last = uint16_t(patch.vertex_count - 1);
+  for (uint16_t k = 0; k < 4; ++k)
+    corners.vertex[k] = patch_vertex(scene, patch, k < last ? k : last);
   return corners;
 }
 
@@ -178,7 +180,7 @@ Status legacy_init(LegacySource* source, const urad_scene* scene, const urad_leg
   for (uint16_t s = 0; s < scene->surface_count; ++s) {
     const urad_surface& surface = scene->surface[s];
     for (uint16_t k = 0; !surface.grid && k < surface.patch_count; ++k)
-      if (surface.polygon[k].vertex_count != 4) return Status::bad_argument;
+      if (surface.polygon[k].vertex_count > 4) return Status::bad_argument;
   }
   *source = {scene, net, rays, 0xFFFF, counters, static_cast<int32_t*>(memory)};
   return Status::ok;

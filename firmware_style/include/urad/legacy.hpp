@@ -34,10 +34,11 @@ uint16_t legacy_output_uq15(const urad_legacy_net& net, const int32_t* z_q23) no
 /// F in UQ0.32 from y: 0 where a linear net ends below 0.1, 2^32 - 1 where F would pass 1.
 uint32_t legacy_form_factor_uq32(const urad_legacy_net& net, uint16_t y_uq15) noexcept;
 
-/// A source (source.h). Patches have four vertices; pairs whose centroids do not lie in front of
-/// each other's plane are 0, and so are patches of one planar surface [Figure 4.1]. Coordinates are
-/// the scene's over 2^30, plus 1/2: a unit cube is read as it was learned. F keeps what the network
-/// says: no repair makes rows sum to 1, no minimum makes it symmetric.
+/// A source (source.h). Patches have four vertices, or three: the last is then read twice. Pairs
+/// whose centroids do not lie in front of each other's plane are 0, and so are patches of one planar
+/// surface [Figure 4.1]. Coordinates are the scene's over 2^30, plus 1/2: a unit cube is read as it
+/// was learned. F keeps what the network says: no repair makes rows sum to 1, no minimum makes it
+/// symmetric.
 struct LegacySource {
   const urad_scene* scene;
   const urad_legacy_net* net;
@@ -50,7 +51,7 @@ struct LegacySource {
 /// Bytes of memory for a net: 16 a hidden unit.
 constexpr size_t legacy_bytes(uint8_t hidden) noexcept { return size_t{16} * hidden; }
 
-/// bad_argument for null pointers or a patch without four vertices, bad_net, out_of_memory.
+/// bad_argument for null pointers or a patch of more than four vertices, bad_net, out_of_memory.
 /// memory is aligned like an int32_t.
 Status legacy_init(LegacySource* source, const urad_scene* scene, const urad_legacy_net* net,
                    uint16_t rays, urad_counters* counters, void* memory, size_t bytes) noexcept;

@@ -43,7 +43,8 @@ every method on the same pairs, in one run, against the reference. Free quads wi
 and what makes form factors go wrong. Median, p95, p99 and max are of |F - exact| / exact, bias is the mean of (F - exact) /
 exact. ns: processor time of a pair on this host; compare rows, not machines. MAC: multiply-adds of one pair, counted in the
 formulas. The engine's methods (fixed-, net, auto, legacy) start from a scene as it stands in flash, the others from vertices.
-legacy is the report's network, where its unit cube holds every pair. Hemicubes, which serve all receivers of a scene at once,
+legacy is the report's network: it reads the box of the pair as its unit cube, a triangle as a quad with its last corner
+twice, and no pentagons, which are left out of its rows. Hemicubes, which serve all receivers of a scene at once,
 stand beside the others on cube7 in [ACCURACY.md](ACCURACY.md). Auto's constants were fitted on other pairs (`urad evaluate
 --fit-auto`); its guesses at errors are counted in its cost.
 )",

@@ -60,7 +60,8 @@ std::optional<double> multiply_adds(const TableMethod& method, const Work& work)
 std::optional<double> instructions(const TableMethod& method, const InstructionCounts& counts,
                                    const Work& work) {
   const std::string& name = method.spec.name;
-  if (name != "auto" && name != "fixed-lambert" && name != "net") return counts.per_pair(name);
+  if (name != "auto" && name != "fixed-lambert" && name != "net")
+    return counts.per_pair(method.spec.text());
   const auto moment = counts.per_pair("fixed-moment"), net = counts.per_pair("net");
   const auto point = counts.per_point();
   if (!moment || !net || !point) return std::nullopt;
@@ -179,17 +180,17 @@ std::string ways_of(const std::string& family, const std::string& label,
   return line;
 }
 
-/// What a network of the report can be asked for.
-bool in_unit_cube(const PairSet& set) {
-  const auto inside = [](const Polygon& polygon) {
-    return polygon.outer.size() == 4 &&
-           std::all_of(polygon.outer.begin(), polygon.outer.end(), [](const Vec3& x) {
-             return glm::all(glm::greaterThanEqual(x, Vec3(0))) &&
-                    glm::all(glm::lessThanEqual(x, Vec3(1)));
-           });
-  };
-  return std::all_of(set.pairs.begin(), set.pairs.end(),
-                     [&](const PolygonPair& pair) { return inside(pair.p) && inside(pair.q); });
+/// The pairs that a method can be asked for: a network of the report reads four vertices.
+PairSet readable(PairSet set, const TableMethod& method) {
+  if (method.spec.name != "legacy") return set;
+  const auto few = [](const Polygon& p) { return p.outer.size() <= 4 && p.holes.empty(); };
+  PairSet kept{set.name, {}, {}};
+  for (std::size_t k = 0; k < set.pairs.size(); ++k) {
+    if (!few(set.pairs[k].p) || !few(set.pairs[k].q)) continue;
+    kept.pairs.push_back(std::move(set.pairs[k]));
+    kept.exact.push_back(set.exact[k]);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -213,10 +214,9 @@ MethodTrials try_methods(const TrialRequest& request) {
         {}};
     for (std::size_t m = 0; m < request.methods.size(); ++m) {
       const TableMethod& method = request.methods[m];
-      if (method.spec.name == "legacy" && !in_unit_cube(set)) continue;
       std::vector<One> all;
       for (std::size_t d = 0; d < parts.size(); ++d) {
-        const std::vector<One> ones = try_one(parts[d], method, request);
+        const std::vector<One> ones = try_one(readable(parts[d], method), method, request);
         all.insert(all.end(), ones.begin(), ones.end());
         by_decade[d][m].insert(by_decade[d][m].end(), ones.begin(), ones.end());
       }
@@ -236,8 +236,7 @@ MethodTrials try_methods(const TrialRequest& request) {
             : fmt::format("F {:.0e} to {:.0e}, {} pairs of all families", high / 10, high, pairs),
         {}};
     for (std::size_t m = 0; m < methods.size(); ++m)
-      if (methods[m].size() == pairs)
-        table.rows.push_back(row_of(request.methods[m].label, methods[m]));
+      table.rows.push_back(row_of(request.methods[m].label, methods[m]));
     trials.decades.push_back(std::move(table));
   }
   return trials;

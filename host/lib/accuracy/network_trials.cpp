@@ -116,6 +116,8 @@ MethodTrials try_fronts(const NetworkRequest& request, const std::vector<Network
        {"fixed-kernel", "fixed-moment", "fixed-lambert:1", "fixed-lambert:2", "fixed-lambert:3",
         "auto:0.1", "auto:0.03", "auto", "auto:0.003", "auto:0.001"})
     fronts.methods.push_back({text, parse_method(text), request.nets});
+  if (request.nets.shipped_legacy)
+    fronts.methods.push_back({"legacy:linear50", parse_method("legacy:linear50"), request.nets});
   std::vector<QuantisedNet> kept;  // methods point to them
   kept.reserve(2 * request.hidden.size());
   for (const int hidden : request.hidden) {

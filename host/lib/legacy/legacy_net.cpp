@@ -29,11 +29,13 @@ LegacyInput legacy_input(const Polygon& p, const Polygon& q) {
   LegacyInput input{};
   std::size_t at = 0;
   for (const Polygon* polygon : {&p, &q}) {
-    if (polygon->outer.size() != 4 || !polygon->holes.empty())
-      throw Error(fmt::format("the report's networks read quads: {} vertices and {} holes",
-                              polygon->outer.size(), polygon->holes.size()));
-    for (const Vec3& x : polygon->outer)
-      for (int k = 0; k < 3; ++k) input[at++] = float(x[k]);
+    const std::vector<Vec3>& corner = polygon->outer;
+    if (corner.size() < 3 || corner.size() > 4 || !polygon->holes.empty())
+      throw Error(
+          fmt::format("the report's networks read quads and triangles: {} vertices and {} holes",
+                      corner.size(), polygon->holes.size()));
+    for (std::size_t n = 0; n < 4; ++n)
+      for (int k = 0; k < 3; ++k) input[at++] = float(corner[std::min(n, corner.size() - 1)][k]);
   }
   return input;
 }

@@ -30,7 +30,8 @@ double legacy_unscaled(LegacyScaling scaling, double y);
 
 using LegacyInput = std::array<float, kLegacyInputs>;
 
-/// The coordinates of two quads. Throws Error unless both have four vertices and no hole.
+/// The coordinates of two quads; of a triangle the last corner twice. Throws Error for more than
+/// four vertices or a hole.
 LegacyInput legacy_input(const Polygon& p, const Polygon& q);
 
 struct LegacyNet {

@@ -129,7 +129,9 @@ struct EngineSource::State {
     legacy_memory.resize(bytes / sizeof(std::int32_t));
     if (urad::legacy_init(&legacy, scene, &net, std::uint16_t(options.rays), &counters,
                           legacy_memory.data(), bytes) != urad::Status::ok)
-      throw Error("legacy: the report's networks read quads only; a scene of quads would do");
+      throw Error(
+          "legacy: the report's networks read up to four vertices; a mesh of quads and triangles "
+          "would do");
     source = {urad::legacy_fill, &legacy};
     ram = sizeof legacy + bytes;
   }

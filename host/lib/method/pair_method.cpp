@@ -111,7 +111,7 @@ FreePairMethod in_engine(const MethodSpec& spec, const NetChoice& nets) {
 FreePairMethod legacy_pairs(const urad_legacy_net& net) {
   const auto run = [&net](const Polygon& p, const Polygon& q) {
     for (const Polygon* polygon : {&p, &q}) {
-      if (polygon->outer.size() != 4 || !polygon->holes.empty())
+      if (polygon->outer.size() > 4 || !polygon->holes.empty())
         return PairResult{{}, "unsupported_not_a_quad"};
       for (const Vec3& x : polygon->outer)
         if (glm::any(glm::lessThan(x, Vec3(0))) || glm::any(glm::greaterThan(x, Vec3(1))))

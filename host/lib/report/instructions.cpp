@@ -37,7 +37,8 @@ std::optional<double> InstructionCounts::per_pair(const std::string& method) con
   static const std::map<std::string, std::string> names = {{"net", "pair_network"},
                                                            {"fixed-moment", "pair_moment"},
                                                            {"fixed-kernel", "pair_centre"},
-                                                           {"auto", "pair_auto"}};
+                                                           {"auto", "pair_auto"},
+                                                           {"legacy:linear50", "pair_legacy"}};
   const auto found = names.find(method);
   return found == names.end() ? std::nullopt : mean(found->second);
 }
