@@ -178,7 +178,8 @@ TEST_CASE("only the parameters that are free move") {
   const host::FloatNet start = random_net(2, kSeed + 12);
   std::vector<char> free(std::size_t(start.parameters.size()), 0);
   for (int p = start.output_at(); p <= start.bias_at(); ++p) free[std::size_t(p)] = 1;
-  const host::FloatNet moved = host::refine(start, set, free, 5, 0, 0, 1);
+  const host::FloatNet moved = host::refine(start, {set, host::normalisation(set), 1},
+                                            host::normalisation(set), free, 5, 0, 0);
   for (int p = 0; p < start.hidden_bias_at(); ++p)
     CHECK(moved.parameters[p] == doctest::Approx(start.parameters[p]).epsilon(1e-12));
   CHECK((moved.parameters - start.parameters).norm() > 1e-3);

@@ -5,9 +5,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "base/error.hpp"
 #include "network/engine_range.hpp"
+#include "network/random.hpp"
 #include "network/trainer.hpp"
 
 namespace host {
@@ -15,6 +18,10 @@ namespace host {
 namespace {
 
 constexpr double kFullScale = 32768;
+// What is left of the error depends on the order of the neurons by as much as a half.
+constexpr int kOrders = 12;
+constexpr int kSteps = 1,
+              kLastSteps = 4;  // of training after each neuron, and after the best order
 // Scale of one accumulator: real weight per integer. rescale is exact, so the weights can be
 // rounded against it.
 struct Scale {
@@ -109,15 +116,24 @@ void round_neuron(const FloatNet& scaled, int h, const Scale& scale,
   for (std::size_t k = 0; k < free.size(); ++k) net->parameters[free[k]] = value[Eigen::Index(k)];
 }
 
-QuantisedNet quantise_narrow(const FloatNet& original, double far_rho, const Compensation& c) {
-  const Normalisation scaling = normalisation(*c.training);
-  const Objective objective(*c.training, scaling, c.threads);
-  FloatNet net = original;
-  NetTables tables = empty_tables(net, 8, far_rho);
-  std::vector<char> is_free(std::size_t(net.parameters.size()), 1);
+/// A net with whole hidden weights; the rest made up for them.
+struct Rounded {
+  FloatNet net;
+  NetTables tables;
   std::vector<Scale> scales;
-  for (int h = 0; h < net.hidden(); ++h) {
-    scales.push_back(hidden_scale(net, h, 8));
+  std::vector<char> is_free;  ///< of the parameters: not rounded yet
+  double loss = 0;
+};
+
+Rounded round_in_order(const FloatNet& original, const std::vector<int>& neurons,
+                       const NetTables& empty, const Normalisation& scaling,
+                       const Objective& objective, const Compensation& c) {
+  Rounded result{original, empty, std::vector<Scale>(neurons.size()),
+                 std::vector<char>(std::size_t(original.parameters.size()), 1)};
+  auto& [net, tables, scales, is_free, loss] = result;
+  for (const int h : neurons) {
+    Scale& scale = scales[std::size_t(h)];
+    scale = hidden_scale(net, h, 8);
     FloatNet scaled = unfold_normalisation(net, scaling.mean, scaling.deviation);
     Eigen::MatrixXd hessian;
     Eigen::VectorXd gradient;
@@ -130,17 +146,35 @@ QuantisedNet quantise_narrow(const FloatNet& original, double far_rho, const Com
     const Eigen::MatrixXd inverse =
         hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
     FloatNet rounded = scaled;
-    round_neuron(scaled, h, scales.back(), scaling.deviation, inverse, free, &rounded, &tables);
+    round_neuron(scaled, h, scale, scaling.deviation, inverse, free, &rounded, &tables);
     net = fold_normalisation(rounded, scaling.mean, scaling.deviation);
     for (int n = 0; n < net.inputs(); ++n) {
       const auto p = std::size_t(h * net.inputs() + n);
-      net.parameters[Eigen::Index(p)] = tables.hidden_weight[p] * scales.back().unit;
+      net.parameters[Eigen::Index(p)] = tables.hidden_weight[p] * scale.unit;
       is_free[p] = 0;
     }
-    net = refine(net, *c.training, is_free, 6, c.robust, c.decay, c.threads);
+    net = refine(net, objective, scaling, is_free, kSteps, c.robust, c.decay);
   }
-  round_rest(net, scales, &tables);
-  return QuantisedNet(tables);
+  loss = objective.value(unfold_normalisation(net, scaling.mean, scaling.deviation), c.robust);
+  return result;
+}
+
+QuantisedNet quantise_narrow(const FloatNet& net, double far_rho, const Compensation& c) {
+  const Normalisation scaling = normalisation(*c.training);
+  const Objective objective(*c.training, scaling, c.threads);
+  const NetTables empty = empty_tables(net, 8, far_rho);
+  std::vector<int> neurons(std::size_t(net.hidden()));
+  std::iota(neurons.begin(), neurons.end(), 0);
+  Random random(1);
+  std::optional<Rounded> best;
+  for (int k = 0; k < kOrders; ++k) {
+    Rounded rounded = round_in_order(net, neurons, empty, scaling, objective, c);
+    if (!best || rounded.loss < best->loss) best = std::move(rounded);
+    random.shuffle(neurons);
+  }
+  best->net = refine(best->net, objective, scaling, best->is_free, kLastSteps, c.robust, c.decay);
+  round_rest(best->net, best->scales, &best->tables);
+  return QuantisedNet(best->tables);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Compensation {
 
 /// 16 bits: round_net(). 8 bits: hidden weights are rounded in turn, and what is not yet rounded
 /// takes up the error through the Gauss-Newton Hessian [Hassibi and Stork 1993, "optimal brain
-/// surgeon"], then by training steps.
+/// surgeon"], then by training steps. The neurons are taken in several orders, and the best is kept.
 QuantisedNet quantise(const FloatNet& net, int weight_bits, double far_rho,
                       const Compensation& compensation);
 

@@ -197,10 +197,8 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
   return fold_normalisation(net, scaling.mean, scaling.deviation);
 }
 
-FloatNet refine(const FloatNet& net, const TrainingSet& training, const std::vector<char>& free,
-                int iterations, double robust, double decay, int threads) {
-  const Normalisation scaling = normalisation(training);
-  const Objective objective(training, scaling, threads);
+FloatNet refine(const FloatNet& net, const Objective& objective, const Normalisation& scaling,
+                const std::vector<char>& free, int iterations, double robust, double decay) {
   std::vector<int> index;
   for (std::size_t p = 0; p < free.size(); ++p)
     if (free[p]) index.push_back(int(p));

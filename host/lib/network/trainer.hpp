@@ -64,8 +64,8 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
                               const TrainerSettings& settings, const TrainerHooks& hooks = {});
 
 /// Goes on from `net` (inputs as they are) for so many steps with only parameters p, free[p] != 0,
-/// moving.
-FloatNet refine(const FloatNet& net, const TrainingSet& training, const std::vector<char>& free,
-                int iterations, double robust, double decay, int threads = 0);
+/// moving. scaling: that of the objective.
+FloatNet refine(const FloatNet& net, const Objective& objective, const Normalisation& scaling,
+                const std::vector<char>& free, int iterations, double robust, double decay);
 
 }  // namespace host
