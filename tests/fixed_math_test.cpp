@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "urad/angle.hpp"
@@ -105,6 +106,37 @@ TEST_CASE("products of all pairs of 16-bit numbers on a grid are exact") {
     for (std::int32_t y = -32768; y <= 32767; y += 17)
       same = same && urad::mul_round(x, y, 15) == std::int32_t(rounded(Wide{x} * y, 15));
   CHECK(same);
+}
+
+// On this machine wide_mul() and wide_umul() are the plain product; a Cortex-M0 takes the other two.
+TEST_CASE("products of 64 bits from 16-bit halves are the plain ones, signed and unsigned") {
+  const auto same = [](std::int32_t a, std::int32_t b) {
+    const auto ua = std::uint32_t(a), ub = std::uint32_t(b);
+    return urad::split_mul(a, b) == std::int64_t{a} * b &&
+           urad::wide_mul(a, b) == std::int64_t{a} * b &&
+           urad::split_umul(ua, ub) == std::uint64_t{ua} * ub &&
+           urad::wide_umul(ua, ub) == std::uint64_t{ua} * ub;
+  };
+  static_assert(urad::split_mul(INT32_MIN, INT32_MIN) == std::int64_t{1} << 62);
+  static_assert(urad::split_umul(0xFFFFFFFFu, 0xFFFFFFFFu) == 0xFFFFFFFE00000001u);
+  const auto all = corners_32();
+  long wrong = 0;
+  for (const std::int32_t a : all)
+    for (const std::int32_t b : all) wrong += !same(a, b);
+  for (const std::int32_t b : all)  // every half beside every corner: carries between the products
+    for (std::uint32_t half = 0; half < 65536; half += 7) {
+      wrong += !same(std::int32_t(half), b);
+      wrong += !same(std::int32_t(half << 16 | 0xFFFFu), b);
+    }
+  CHECK(wrong == 0);
+  constexpr unsigned kSeed = 32;
+  CAPTURE(kSeed);
+  std::mt19937 random(kSeed);
+  for (int n = 0; n < 4'000'000; ++n) {
+    const auto a = std::int32_t(random()) >> (n % 17), b = std::int32_t(random()) >> (n / 17 % 17);
+    wrong += !same(a, b);
+  }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("scaled keeps the leading 32 bits; quotients have 29 good ones over a dense grid") {

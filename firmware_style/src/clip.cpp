@@ -90,7 +90,7 @@ class Fan {
     int32_t a[3], b[3];
     place(edge.a, a);
     place(edge.b, b);
-    const int64_t cross = int64_t{a[u_]} * b[v_] - int64_t{a[v_]} * b[u_];
+    const int64_t cross = wide_mul(a[u_], b[v_]) - wide_mul(a[v_], b[u_]);
     sums_.area += cross;
     const int64_t weight = round_shift(cross, 23);  // 18 bits
     int32_t a18[3], b18[3];
@@ -102,8 +102,8 @@ class Fan {
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 6; ++k) {
       const int r = row[k], c = column[k];
-      sums_.second[k] += weight * (int64_t{a18[r]} * a18[c] + int64_t{b18[r]} * b18[c] +
-                                   int64_t{a18[r] + b18[r]} * (a18[c] + b18[c]));
+      sums_.second[k] += weight * (wide_mul(a18[r], a18[c]) + wide_mul(b18[r], b18[c]) +
+                                   wide_mul(a18[r] + b18[r], a18[c] + b18[c]));
     }
   }
   const FanSums& sums() const noexcept { return sums_; }
@@ -216,7 +216,7 @@ bool clipped_shape(const urad_scene& scene, const Patch& patch, const urad_point
   for (int k = 0; k < 6; ++k) {
     const int64_t about_centre =
         ratio(flip ? -sums.second[k] : sums.second[k], uint64_t(area) * 12, 15);
-    const int64_t of_centroid = round_shift(int64_t{offset[row[k]]} * offset[column[k]], 28);
+    const int64_t of_centroid = round_shift(wide_mul(offset[row[k]], offset[column[k]]), 28);
     spread[k] = about_centre - of_centroid;
   }
   const int64_t trace = spread[0] + spread[1] + spread[2];

@@ -12,8 +12,8 @@ struct Wide {
 };
 
 Wide cross(const urad_point& a, const urad_point& b) noexcept {
-  return {int64_t{a.y} * b.z - int64_t{a.z} * b.y, int64_t{a.z} * b.x - int64_t{a.x} * b.z,
-          int64_t{a.x} * b.y - int64_t{a.y} * b.x};
+  return {wide_mul(a.y, b.z) - wide_mul(a.z, b.y), wide_mul(a.z, b.x) - wide_mul(a.x, b.z),
+          wide_mul(a.x, b.y) - wide_mul(a.y, b.x)};
 }
 
 /// x with its greatest component in [2^29, 2^30); *shift is how far it was moved down.
@@ -46,7 +46,7 @@ bool inside(int64_t x) noexcept { return x >= -URAD_COORDINATE_MAX && x <= URAD_
 /// All four corners of the grid along one axis.
 bool reaches(int32_t origin, int32_t step_u, int32_t step_v, uint16_t count_u,
              uint16_t count_v) noexcept {
-  const int64_t u = int64_t{step_u} * count_u, v = int64_t{step_v} * count_v;
+  const int64_t u = wide_mul(step_u, count_u), v = wide_mul(step_v, count_v);
   return inside(origin) && inside(origin + u) && inside(origin + v) && inside(origin + u + v);
 }
 
@@ -56,7 +56,7 @@ void put_spread(const urad_point& u, const urad_point& v, int32_t log2_sum_q24,
   const int32_t a[3] = {u.x, u.y, u.z}, b[3] = {v.x, v.y, v.z};
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; ++k) {
-    const int64_t product = int64_t{a[row[k]]} * a[column[k]] + int64_t{b[row[k]]} * b[column[k]];
+    const int64_t product = wide_mul(a[row[k]], a[column[k]]) + wide_mul(b[row[k]], b[column[k]]);
     const uint32_t size_q15 =
         product == 0 ? 0 : exp2_uq(log2_q24(magnitude(product)) - log2_sum_q24, 15);
     const int16_t narrow = int16_t(size_q15 > 32767u ? 32767u : size_q15);

@@ -39,7 +39,7 @@ constexpr Turns kTurns = make_turns();  // 256 bytes of ROM
 constexpr Turn kHair = {(int32_t{1} << 30) - (1 << 9), 1 << 20};
 
 constexpr int32_t mul_q30(int32_t a, int32_t b) noexcept {
-  return int32_t(round_shift(int64_t{a} * b, 30));
+  return int32_t(round_shift(wide_mul(a, b), 30));
 }
 
 /// The low five bits in reverse: neighbours in a grid get angles far apart.
@@ -68,7 +68,7 @@ urad_point across(const urad_point& n) noexcept {
 
 urad_point cross(const urad_point& a, const urad_point& b) noexcept {
   const auto minor = [](int32_t p, int32_t q, int32_t r, int32_t s) {
-    return int32_t(round_shift(int64_t{p} * q - int64_t{r} * s, 30));
+    return int32_t(round_shift(wide_mul(p, q) - wide_mul(r, s), 30));
   };
   return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
 }
@@ -79,7 +79,7 @@ HemicubeFrame hemicube_frame(const urad_point& normal_q30, uint16_t patch, bool 
   const urad_point u = across(normal_q30), v = cross(normal_q30, u);
   const Turn turn = turned ? kTurns.turn[reversed5(patch)] : kHair;
   const auto mix = [](int32_t a, int32_t p, int32_t b, int32_t q) {
-    return int32_t(round_shift(int64_t{a} * p + int64_t{b} * q, 30));
+    return int32_t(round_shift(wide_mul(a, p) + wide_mul(b, q), 30));
   };
   const int32_t c = turn.cos_q30, s = turn.sin_q30;
   return {{{mix(u.x, c, v.x, s), mix(u.y, c, v.y, s), mix(u.z, c, v.z, s)},

@@ -24,7 +24,7 @@ Depth depth_of(const View& view, int face, int resolution) noexcept {
   const Scaled offset = scaled(magnitude(view.offset_q30));
   const int64_t inverse =
       int64_t(inverse_uq62(offset.mantissa) >> 6) * (view.offset_q30 < 0 ? -1 : 1);
-  const int64_t corner = int64_t{n.z} * resolution - (int64_t{n.x} + n.y) * (resolution - 1);
+  const int64_t corner = wide_mul(n.z, resolution) - (int64_t{n.x} + n.y) * (resolution - 1);
   return {int64_t{n.x} * 2 * inverse, int64_t{n.y} * 2 * inverse, corner * inverse,
           offset.exponent};
 }

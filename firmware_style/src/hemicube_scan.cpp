@@ -29,7 +29,8 @@ Threshold threshold(const urad_point& v, int resolution) noexcept {
   if (magnitude(v.y) >= magnitude(v.z))
     return {(v.y < 0) == behind_eye ? resolution : 0, behind_eye};
   const int64_t height_q30 = ratio_q(behind_eye ? -int64_t{v.y} : v.y, int64_t(magnitude(v.z)), 30);
-  const int64_t twice_row_q30 = height_q30 * resolution + (int64_t{resolution - 1} << 30);
+  const int64_t twice_row_q30 =
+      wide_mul(int32_t(height_q30), resolution) + (int64_t{resolution - 1} << 30);
   return {int(shift_down(twice_row_q30 + 0x7FFFFFFF, 31)), behind_eye};
 }
 
@@ -46,7 +47,7 @@ struct Normal {
 
 Normal edge_normal(const urad_point& a, const urad_point& b) noexcept {
   const auto minor = [](int32_t p, int32_t q, int32_t r, int32_t s) {
-    return int64_t{p} * q - int64_t{r} * s;
+    return wide_mul(p, q) - wide_mul(r, s);
   };
   const Normal e{minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
   const int excess = top_bit(magnitude(e.s) | magnitude(e.t) | magnitude(e.w)) - 30;
@@ -61,14 +62,15 @@ Normal edge_normal(const urad_point& a, const urad_point& b) noexcept {
 
 /// s = -(E.t T + E.w) / E.s as a column, u = (s R + R - 1) / 2. e.s != 0. |numerators| < 2^39.
 Line line_of(const Normal& e, int resolution) noexcept {
-  const int64_t sign = e.s < 0 ? -1 : 1, size = e.s * sign;
-  const int64_t step_q24 = ratio_q(-sign * e.t, size, 24);
-  const int64_t middle_q24 = ratio_q(-sign * (e.t + e.w * resolution), size, 23);
+  const auto by_minus_s = [&](int64_t x, int fraction_bits) {
+    return ratio_q(e.s < 0 ? x : -x, int64_t(magnitude(e.s)), fraction_bits);
+  };
+  const int64_t step_q24 = by_minus_s(e.t, 24);
+  const int64_t middle_q24 = by_minus_s(e.t + e.w * resolution, 23);
   return {middle_q24 + (int64_t{resolution - 1} << 23), step_q24};
 }
 
-int column_of(const Line& line, int row, int resolution) noexcept {
-  const int64_t u_q24 = line.middle_q24 + line.step_q24 * (row - (resolution >> 1));
+int column_of(int64_t u_q24, int resolution) noexcept {
   if (u_q24 <= 0) return 0;
   const int64_t column = shift_down(u_q24 + 0xFFFFFF, 24);
   return column < resolution ? int(column) : resolution;
@@ -95,8 +97,9 @@ struct Scan {
     if (first >= end) return;
     touched.first = first < touched.first ? first : touched.first;
     touched.end = end > touched.end ? end : touched.end;
-    for (int row = first; row < end; ++row) {
-      const int column = in_front ? column_of(line, row, resolution) : far_column;
+    int64_t u_q24 = line.middle_q24 + line.step_q24 * (first - (resolution >> 1));
+    for (int row = first; row < end; ++row, u_q24 += line.step_q24) {
+      const int column = in_front ? column_of(u_q24, resolution) : far_column;
       toggle(mask + (row - band.first) * words, words, column);
     }
   }

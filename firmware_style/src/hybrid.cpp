@@ -11,7 +11,7 @@ namespace {
 
 /// a * b / 2^bits to nearest, saturating at 2^32 - 1.
 constexpr uint32_t times(uint32_t a, uint32_t b_uq, int bits) noexcept {
-  const uint64_t product = (uint64_t{a} * b_uq + (uint64_t{1} << (bits - 1))) >> bits;
+  const uint64_t product = (wide_umul(a, b_uq) + (uint64_t{1} << (bits - 1))) >> bits;
   return product > 0xFFFFFFFFu ? 0xFFFFFFFFu : uint32_t(product);
 }
 

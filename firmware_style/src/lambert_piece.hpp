@@ -40,7 +40,7 @@ struct Weights {
 };
 inline Weights bilinear(int32_t u_q30, int32_t v_q30) noexcept {
   constexpr int32_t one = 1 << 30;
-  const auto times = [](int32_t a, int32_t b) { return int32_t(round_shift(int64_t{a} * b, 30)); };
+  const auto times = [](int32_t a, int32_t b) { return int32_t(round_shift(wide_mul(a, b), 30)); };
   return {{times(one - u_q30, one - v_q30), times(u_q30, one - v_q30), times(u_q30, v_q30),
            times(one - u_q30, v_q30)}};
 }
@@ -49,9 +49,9 @@ inline urad_point point_of(const Piece& piece, int32_t u_q30, int32_t v_q30) noe
   const Weights w = bilinear(u_q30, v_q30);
   int64_t sum[3] = {0, 0, 0};
   for (int k = 0; k < 4; ++k) {
-    sum[0] += int64_t{w.q30[k]} * piece.corner[k].x;
-    sum[1] += int64_t{w.q30[k]} * piece.corner[k].y;
-    sum[2] += int64_t{w.q30[k]} * piece.corner[k].z;
+    sum[0] += wide_mul(w.q30[k], piece.corner[k].x);
+    sum[1] += wide_mul(w.q30[k], piece.corner[k].y);
+    sum[2] += wide_mul(w.q30[k], piece.corner[k].z);
   }
   return {int32_t(round_shift(sum[0], 30)), int32_t(round_shift(sum[1], 30)),
           int32_t(round_shift(sum[2], 30))};

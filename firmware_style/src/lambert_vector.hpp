@@ -14,9 +14,9 @@ struct LongVector {
 
 /// a x b, |components| <= 2^30.
 inline LongVector cross(const urad_point& a, const urad_point& b) noexcept {
-  const int64_t c[3] = {int64_t{a.y} * b.z - int64_t{a.z} * b.y,
-                        int64_t{a.z} * b.x - int64_t{a.x} * b.z,
-                        int64_t{a.x} * b.y - int64_t{a.y} * b.x};
+  const int64_t c[3] = {wide_mul(a.y, b.z) - wide_mul(a.z, b.y),
+                        wide_mul(a.z, b.x) - wide_mul(a.x, b.z),
+                        wide_mul(a.x, b.y) - wide_mul(a.y, b.x)};
   const uint64_t extent = magnitude(c[0]) | magnitude(c[1]) | magnitude(c[2]);
   if (extent == 0) return {{0, 0, 0}, 0};
   const int down = top_bit(extent) - 29;

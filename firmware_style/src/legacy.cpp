@@ -17,7 +17,7 @@ constexpr int32_t clamped(int32_t x) noexcept {
 }
 
 constexpr int64_t weighed(const int16_t* weight, const urad_point& x) noexcept {
-  return int64_t{weight[0]} * x.x + int64_t{weight[1]} * x.y + int64_t{weight[2]} * x.z;
+  return wide_mul(weight[0], x.x) + wide_mul(weight[1], x.y) + wide_mul(weight[2], x.z);
 }
 
 constexpr int32_t to_q23(int64_t sum, int fraction_bits) noexcept {
@@ -109,7 +109,7 @@ bool in_front(const Patch& of, const Patch& patch) noexcept {
 
 /// F times a factor 2^x, saturating.
 uint32_t scaled_uq32(uint32_t f_uq32, int32_t x_q24) noexcept {
-  const uint64_t product = uint64_t{f_uq32} * exp2_uq(x_q24, 16) + 0x8000u;
+  const uint64_t product = wide_umul(f_uq32, exp2_uq(x_q24, 16)) + 0x8000u;
   return product >> 48 ? 0xFFFFFFFFu : uint32_t(product >> 16);
 }
 
@@ -128,7 +128,7 @@ uint32_t factor_uq32(const LegacySource& source, const Patch& from, const Patch&
   if (source.rays && !(scene.flags & URAD_SCENE_CONVEX)) {
     const uint32_t seen_uq16 =
         visible_fraction_uq16(scene, from, to, source.rays, true, source.counters);
-    f_uq32 = uint32_t((uint64_t{f_uq32} * seen_uq16 + 0x8000u) >> 16);
+    f_uq32 = uint32_t((wide_umul(f_uq32, seen_uq16) + 0x8000u) >> 16);
   }
   return f_uq32;
 }
@@ -140,7 +140,7 @@ int32_t legacy_half_q23(const int16_t* weight, int fraction_bits,
   int64_t sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int16_t* w = weight + 3 * k;
-    sum += weighed(w, vertex[k]) + int64_t{w[0] + w[1] + w[2]} * kHalf_q30;
+    sum += weighed(w, vertex[k]) + wide_mul(w[0] + w[1] + w[2], kHalf_q30);
   }
   return to_q23(sum, fraction_bits);
 }

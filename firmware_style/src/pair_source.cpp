@@ -107,7 +107,7 @@ void fill_run(PairSource& source, const Patch& from, Side side, uint16_t first, 
         }
         if (sight.blockers)
           seen_uq16 = seen_by_rays_uq16(source, *sight.blockers, from, receiver, log2_g_q24);
-        f_uq32[k] = uint32_t((uint64_t{f} * seen_uq16 + 0x8000u) >> 16);
+        f_uq32[k] = uint32_t((wide_umul(f, seen_uq16) + 0x8000u) >> 16);
         source.counters->skipped_convex += !sight.exported && !sight.blockers && source.rays;
       }
     }

@@ -87,7 +87,7 @@ void survey(Radiosity* s) noexcept {
   // Light comes to this patch once: what it sends on again is in the shot already. A patch that is
   // a large part of the scene would else be promised its returns many times.
   const uint32_t rho_uq16 = effective_reflectance_uq16(s, channel);
-  const uint32_t own_uq16 = uint32_t((uint64_t{rho_uq16} * exp2_uq(log2_share_q24, 16)) >> 16);
+  const uint32_t own_uq16 = uint32_t(wide_umul(rho_uq16, exp2_uq(log2_share_q24, 16)) >> 16);
   uint32_t gain = gain_uq16(rho_uq16 > own_uq16 ? rho_uq16 - own_uq16 : 0);
   if (s.flags & kTwoWays) gain = two_ways_gain_uq16(s, gain);
   if (gain > kOvershootMost_uq16) gain = kOvershootMost_uq16;

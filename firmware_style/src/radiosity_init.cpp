@@ -40,7 +40,7 @@ Areas areas_of(const urad_scene& scene) noexcept {
     areas.sum_uq31 += area_uq31;
     for (int c = 0; c < 3; ++c) {
       const uint16_t rho = scene.material[surface.material].reflectance_uq15[c];
-      areas.reflecting_uq16[c] += (uint64_t{area_uq31} * rho) >> 16;
+      areas.reflecting_uq16[c] += wide_umul(area_uq31, rho) >> 16;
     }
   });
   return areas;

@@ -16,7 +16,7 @@ constexpr int32_t saturate_i32(int64_t x) noexcept {
 /// Reflectance of the scene as light meets it: mean reflectance times the share that does not
 /// escape. UQ16.16, <= 1.
 constexpr uint32_t effective_reflectance_uq16(const urad_radiosity& s, int channel) noexcept {
-  return uint32_t((uint64_t{s.reflectance_uq16[channel]} * s.closure_uq16) >> 16);
+  return uint32_t(wide_umul(s.reflectance_uq16[channel], s.closure_uq16) >> 16);
 }
 
 /// 1 / (1 - r) as UQ16.16, at most 1024: all bounces together.

@@ -11,7 +11,7 @@ uint64_t bounces_uq16(const Radiosity& s) noexcept {
   uint64_t most = 0;
   for (int c = 0; c < 3; ++c) {
     const uint32_t r_uq16 = effective_reflectance_uq16(s, c);
-    const uint64_t bounces = (uint64_t{r_uq16} * gain_uq16(r_uq16)) >> 16;
+    const uint64_t bounces = wide_umul(r_uq16, gain_uq16(r_uq16)) >> 16;
     if (bounces > most) most = bounces;
   }
   return most;

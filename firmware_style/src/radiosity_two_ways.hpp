@@ -38,7 +38,7 @@ inline uint32_t two_ways_gain_uq16(const urad_radiosity& s, uint32_t gain) noexc
     const uint32_t ratio_uq16 = exp2_uq(log2_q24(s.remaining) - log2_q24(mean), 16);
     if (ratio_uq16 < times_uq16) times_uq16 = ratio_uq16;
   }
-  uint64_t more = (uint64_t{gain} * times_uq16) >> 16;
+  uint64_t more = wide_umul(gain, times_uq16) >> 16;
   if (more > kTwoWaysGainMost_uq16) more = kTwoWaysGainMost_uq16;
   return more > gain || mostly_nearby(s) ? uint32_t(more) : gain;
 }

@@ -48,7 +48,7 @@ bool good(const urad_grid& grid, uint16_t patch_count) noexcept {
   if (uint32_t{grid.count_u} * grid.count_v != patch_count) return false;
   if (!inside(grid.origin) || !good(grid.shape)) return false;
   const auto reaches = [&](int32_t origin, int32_t step_u, int32_t step_v) {
-    const int64_t u = int64_t{step_u} * grid.count_u, v = int64_t{step_v} * grid.count_v;
+    const int64_t u = wide_mul(step_u, grid.count_u), v = wide_mul(step_v, grid.count_v);
     const int64_t limit = kCoordinateMax;
     const auto fits = [=](int64_t x) { return x <= limit && x >= -limit; };
     return fits(origin + u) && fits(origin + v) && fits(origin + u + v);

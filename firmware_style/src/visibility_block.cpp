@@ -34,7 +34,7 @@ Hit hit_at(const urad_scene& scene, const urad_blocker& blocker, const Flat& fla
     const bool near = !apart(pu, qu, u, u, outline) && !apart(pv, qv, v, v, outline);
     if (before) inside = !inside;
     if (!near && (before || !crosses || u > greatest(pu, qu))) continue;
-    const int64_t cross = int64_t{qu - pu} * (v - pv) - int64_t{qv - pv} * (u - pu);
+    const int64_t cross = wide_mul(qu - pu, v - pv) - wide_mul(qv - pv, u - pu);
     const uint64_t reach = uint64_t{magnitude(qu - pu)} + magnitude(qv - pv);
     beside = beside || (near && magnitude(cross) <= uint64_t(outline) * reach);
     if (crosses && !before && (qv > pv ? cross > 0 : cross < 0)) inside = !inside;

@@ -39,7 +39,7 @@ constexpr Directions kDirections = make_directions();  // 256 bytes of ROM
 
 /// x times a length, the sum of two of which stays below 2^62.
 constexpr int64_t part_q31(uint32_t x_uq31, int32_t length) noexcept {
-  return int64_t{x_uq31} * length;
+  return wide_mul(int32_t(x_uq31), length);
 }
 
 constexpr bool within(int32_t x, int32_t limit) noexcept { return x <= limit && x >= -limit; }
@@ -98,7 +98,7 @@ bool PatchSampler::inside(int32_t u, int32_t v) const noexcept {
       in = !in;
       continue;
     }
-    const int64_t cross = int64_t{qu - pu} * (v - pv) - int64_t{qv - pv} * (u - pu);
+    const int64_t cross = wide_mul(qu - pu, v - pv) - wide_mul(qv - pv, u - pu);
     if (qv > pv ? cross > 0 : cross < 0) in = !in;
   }
   return in;
@@ -113,8 +113,8 @@ bool PatchSampler::point(uint32_t x_uq31, uint32_t y_uq31, urad_point* p) const 
     int32_t dropped = flat_.dropped(origin_);
     if (inverse_steep_.mantissa) {
       const urad_point& n = patch_.shape->normal_q30;
-      const int64_t rise = -(int64_t{flat_.u(n)} * (u - flat_.u(origin_)) +
-                             int64_t{flat_.v(n)} * (v - flat_.v(origin_)));
+      const int64_t rise = -(wide_mul(flat_.u(n), u - flat_.u(origin_)) +
+                             wide_mul(flat_.v(n), v - flat_.v(origin_)));
       const auto d = int32_t(to_q(scaled(magnitude(rise)) * inverse_steep_, 0));
       dropped += (rise < 0) != (flat_.dropped(n) < 0) ? -d : d;
     }

@@ -137,7 +137,7 @@ int8_t turn_of(const urad_scene& scene, const urad_blocker& blocker) noexcept {
     const urad_point* const r = vertex + k;
     const int32_t du = flat.u(*r) - flat.u(*q), dv = flat.v(*r) - flat.v(*q);
     const int64_t turn =
-        int64_t{flat.u(*q) - flat.u(*p)} * dv - int64_t{flat.v(*q) - flat.v(*p)} * du;
+        wide_mul(flat.u(*q) - flat.u(*p), dv) - wide_mul(flat.v(*q) - flat.v(*p), du);
     left = left || turn > 0;
     right = right || turn < 0;
     // A convex loop goes up once and down once; a star that turns one way only does so twice.

@@ -48,7 +48,7 @@ constexpr InverseRoot inverse_root(uint64_t x) noexcept {
   const int even = (top_bit(x) | 1) + 1;  // x = v 2^even, v in [1/4, 1)
   const uint32_t v_uq32 = even >= 32 ? uint32_t(x >> (even - 32)) : uint32_t(x << (32 - even));
   const auto product = [](uint32_t a, uint32_t b, int shift) {
-    return uint32_t((uint64_t{a} * b) >> shift);
+    return uint32_t(wide_umul(a, b) >> shift);
   };
   const uint32_t y_uq30 = exp2_uq((16 << 24) - shift_down(log2_q24(v_uq32), 1), 30);
   const uint32_t square_uq30 = product(product(v_uq32, y_uq30, 32), y_uq30, 30);  // v y^2, about 1
@@ -69,16 +69,18 @@ constexpr int32_t angle_q29(int64_t x, int64_t y) noexcept {
   const int64_t quotient_q30 = ratio_q(int64_t(small), int64_t(large), 30);
   const int32_t t_q30 = quotient_q30 > (1 << 30) ? 1 << 30 : int32_t(quotient_q30);
   const int k = (t_q30 + (1 << 23)) >> 24;
-  const int64_t d_q30 = t_q30 - k * (1 << 24);
-  const int64_t slope_q30 = table::kArctan.slope_uq30[k];
+  const auto mul_q30 = [](int32_t a, int32_t b) {
+    return int32_t(round_shift(wide_mul(a, b), 30));
+  };
+  const int32_t d_q30 = t_q30 - k * (1 << 24), slope_q30 = int32_t(table::kArctan.slope_uq30[k]);
   // arctan(t + d) = arctan t + s d - t (s d)^2 + (1 - 4/3 s) s^2 d^3,  s = 1 / (1 + t^2)
-  const int64_t first_q30 = round_shift(slope_q30 * d_q30, 30);
-  const int64_t square_q30 = round_shift(first_q30 * first_q30, 30);
-  const int64_t bend_q30 = round_shift(
-      ((int64_t{1} << 30) - slope_q30 - round_shift(slope_q30 * 357913941, 30)) * d_q30, 30);
-  const int64_t rest_q30 = round_shift(square_q30 * (bend_q30 - k * (int64_t{1} << 24)), 30);
+  const int32_t first_q30 = mul_q30(slope_q30, d_q30);
+  const int32_t square_q30 = mul_q30(first_q30, first_q30);
+  const int32_t bend_q30 =
+      mul_q30((int32_t{1} << 30) - slope_q30 - mul_q30(slope_q30, 357913941), d_q30);
+  const int32_t rest_q30 = mul_q30(square_q30, bend_q30 - k * (1 << 24));
   const int32_t arc_q29 =
-      int32_t(round_shift(int64_t{table::kArctan.value_uq30[k]} + first_q30 + rest_q30, 1));
+      round_shift(int32_t(table::kArctan.value_uq30[k]) + first_q30 + rest_q30, 1);
   const int32_t acute_q29 = steep ? (kPi_q29 >> 1) - arc_q29 : arc_q29;
   return x < 0 ? kPi_q29 - acute_q29 : acute_q29;
 }

@@ -67,8 +67,7 @@ struct ErrorModel {
 inline int32_t error_q8(const ErrorModel& model, const PairTraits& traits) noexcept {
   constexpr int32_t kFlat_q11 = 32767;  // the sigmoid is flat beyond +-16
   const auto sum_q18 = [&](const int16_t* weight, int32_t sum) {
-    for (int k = 0; k < model.traits; ++k) sum += weight[k] * traits.log2_q8[k];
-    return sum;
+    return add_products(sum, weight, traits.log2_q8, model.traits);
   };
   int32_t error = model.bias_q8 + model.shift_q8[int(traits.pair_class)] +
                   round_shift(sum_q18(model.skip_q10, 0), 10);

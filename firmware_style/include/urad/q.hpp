@@ -13,6 +13,16 @@
 
 namespace urad {
 
+// Cores with Thumb-1 alone (Cortex-M0, M0+, M23) have no product of 32 by 32 bits in 64 and eight
+// registers; what calls itself URAD_APART is a function there, as part of a loop it runs out of them.
+#if defined(__ARM_ARCH_ISA_THUMB) && __ARM_ARCH_ISA_THUMB == 1
+inline constexpr bool kLongMultiply = false;
+#define URAD_APART [[gnu::noinline]]
+#else
+inline constexpr bool kLongMultiply = true;
+#define URAD_APART
+#endif
+
 /// What a caller has to see to: ranges that a comment promises. Builds with URAD_CHECKED=1 trap where
 /// one does not hold; all others know nothing of it.
 constexpr void expect(bool holds) noexcept {
@@ -44,6 +54,40 @@ constexpr int64_t round_shift(int64_t x, int n) noexcept {
   expect(n >= 1 && n <= 63);
   const uint64_t y = (magnitude(x) + (uint64_t{1} << (n - 1))) >> n;
   return x < 0 ? -int64_t(y) : int64_t(y);
+}
+
+/// x y in 64 bits from four products of 16, for cores that have no other: the compiler's own is a
+/// call that multiplies 64 bits by 64. docs/DESIGN.md has what it saves.
+///   a b = 2^32 ah bh + 2^16 (ah bl + al bh) + al bl; each sum below keeps within 32 bits, as
+///   (2^16 - 1)^2 + 2 (2^16 - 1) < 2^32, and signed 2^15 (2^16 - 1) + 2^16 - 1 < 2^31
+URAD_APART constexpr uint64_t split_umul(uint32_t a, uint32_t b) noexcept {
+  const uint32_t al = uint16_t(a), ah = a >> 16, bl = uint16_t(b), bh = b >> 16;
+  const uint32_t one = ah * bl + ((al * bl) >> 16), other = al * bh + uint16_t(one);
+  return uint64_t{ah * bh + (one >> 16) + (other >> 16)} << 32 | a * b;
+}
+URAD_APART constexpr int64_t split_mul(int32_t a, int32_t b) noexcept {
+  const int32_t al = uint16_t(a), ah = shift_down(a, 16), bl = uint16_t(b), bh = shift_down(b, 16);
+  const uint32_t low = uint32_t(al) * uint32_t(bl);
+  const int32_t one = ah * bl + int32_t(low >> 16), other = al * bh + uint16_t(one);
+  const int32_t high = ah * bh + shift_down(one, 16) + shift_down(other, 16);
+  return int64_t(uint64_t{uint32_t(high)} << 32 | uint32_t(a) * uint32_t(b));
+}
+
+/// x y, exact.
+constexpr uint64_t wide_umul(uint32_t x, uint32_t y) noexcept {
+  return kLongMultiply ? uint64_t{x} * y : split_umul(x, y);
+}
+constexpr int64_t wide_mul(int32_t x, int32_t y) noexcept {
+  return kLongMultiply ? int64_t{x} * y : split_mul(x, y);
+}
+
+/// sum + x_0 y_0 + x_1 y_1 + ..., n terms that fit in 32 bits. On a Cortex-M0 seven instructions a
+/// term; nine and more inline.
+template <class Factor>
+URAD_APART constexpr int32_t add_products(int32_t sum, const Factor* x, const int16_t* y,
+                                          int n) noexcept {
+  for (int k = 0; k < n; ++k) sum += x[k] * y[k];
+  return sum;
 }
 
 /// x y / 2^n to nearest for 1 <= n <= 16, |y| < 2^(32-n) and results below 2^31: two 32-bit

@@ -11,11 +11,11 @@ namespace urad {
 /// Width: y in UQ2.30 is below 2^31, every product of 32 bits by 32 bits.
 constexpr uint32_t inverse_uq62(uint32_t m) noexcept {
   expect(m >> 31);
-  const auto high = [](uint32_t a, uint32_t b) { return uint32_t((uint64_t{a} * b) >> 32); };
+  const auto high = [](uint32_t a, uint32_t b) { return uint32_t(wide_umul(a, b) >> 32); };
   uint32_t y_uq30 = 3031741621u - high(m, 2021161081u);  // 1/d, UQ2.30
   for (int n = 0; n < 3; ++n) {
     const uint32_t slack_uq30 = 0x80000000u - high(m, y_uq30);  // 2 - d y
-    y_uq30 = uint32_t((uint64_t{y_uq30} * slack_uq30) >> 30);
+    y_uq30 = uint32_t(wide_umul(y_uq30, slack_uq30) >> 30);
   }
   return y_uq30;
 }
@@ -34,7 +34,7 @@ constexpr Scaled scaled(uint64_t x) noexcept {
 
 /// a b, 1 / b and a / b, leading 32 bits kept. b.mantissa != 0 in a quotient.
 constexpr Scaled operator*(const Scaled& a, const Scaled& b) noexcept {
-  const Scaled product = scaled(uint64_t{a.mantissa} * b.mantissa);
+  const Scaled product = scaled(wide_umul(a.mantissa, b.mantissa));
   return {product.mantissa, product.exponent + a.exponent + b.exponent};
 }
 constexpr Scaled inverse(const Scaled& b) noexcept {

@@ -12,16 +12,16 @@ constexpr urad_point operator-(const urad_point& a, const urad_point& b) noexcep
 
 /// Sum of products, exact in 64 bits while |a| |b| < 2^63.
 constexpr int64_t dot(const urad_point& a, const urad_point& b) noexcept {
-  return int64_t{a.x} * b.x + int64_t{a.y} * b.y + int64_t{a.z} * b.z;
+  return wide_mul(a.x, b.x) + wide_mul(a.y, b.y) + wide_mul(a.z, b.z);
 }
 
 /// Normals of rooms that stand upright are mostly zeros: skipping those saves two of three wide
 /// products.
 constexpr int64_t sparse_dot(const urad_point& n, const urad_point& r) noexcept {
   int64_t sum = 0;
-  if (n.x) sum += int64_t{n.x} * r.x;
-  if (n.y) sum += int64_t{n.y} * r.y;
-  if (n.z) sum += int64_t{n.z} * r.z;
+  if (n.x) sum += wide_mul(n.x, r.x);
+  if (n.y) sum += wide_mul(n.y, r.y);
+  if (n.z) sum += wide_mul(n.z, r.z);
   return sum;
 }
 
