@@ -161,7 +161,7 @@ SampledMethod Sample::run(const MethodSpec& spec, const NetChoice& nets,
   for (const std::size_t k : shooters) counting.row(std::uint16_t(k), row.data());
   result.work = row_work(counting.counters(), fixed.pod(), setting, double(shooters.size()));
   const double rays = double(options.rays) / counted.rays;
-  for (const WorkTerm term : {WorkTerm::rays, WorkTerm::ray_tests, WorkTerm::spared})
+  for (const WorkTerm term : {WorkTerm::rays, WorkTerm::lit, WorkTerm::ray_tests, WorkTerm::spared})
     result.work[std::size_t(term)] *= rays;
   const EngineSource source(fixed, spec, nets, options);
   const bool row_is_a_cube = spec.name == "hemicube" || spec.name == "hybrid";

@@ -1,5 +1,6 @@
 // What a row of factors makes the engine do, as numbers that instructions are linear in.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,7 @@ enum class WorkTerm : std::size_t {
   networks,
   hidden,  ///< networks times their hidden neurons
   rays,
+  lit,  ///< rays of the pairs that light goes through: those are weighed
   ray_tests,
   spared,    ///< rays not made
   kept,      ///< blockers that rays are tested against, by pair
@@ -40,9 +42,9 @@ enum class WorkTerm : std::size_t {
 };
 inline constexpr std::size_t kWorkTerms = std::size_t(WorkTerm::count);
 inline constexpr std::array<std::string_view, kWorkTerms> kWorkNames = {
-    "row",      "runs",  "same",     "facing", "behind", "evaluated", "clipped",  "far",
-    "near",     "sums",  "networks", "hidden", "rays",   "ray_tests", "spared",   "kept",
-    "rejected", "cells", "rows",     "walks",  "drawn",  "patches",   "grid_rows"};
+    "row",  "runs",     "same",     "facing", "behind", "evaluated", "clipped",   "far",
+    "near", "sums",     "networks", "hidden", "rays",   "lit",       "ray_tests", "spared",
+    "kept", "rejected", "cells",    "rows",   "walks",  "drawn",     "patches",   "grid_rows"};
 
 using RowWork = std::array<double, kWorkTerms>;
 
@@ -72,6 +74,10 @@ inline RowWork row_work(const urad_counters& c, const urad_scene& scene, const R
   counted(WorkTerm::networks, c.networks);
   counted(WorkTerm::hidden, double(setting.hidden) * c.networks);
   counted(WorkTerm::rays, c.rays);
+  // Every pair has as many, made or spared.
+  const double rays_of_pair = c.evaluated ? (double(c.rays) + c.rays_spared) / c.evaluated : 0;
+  const double dark = double(c.blocked) - c.shut_unseen;
+  counted(WorkTerm::lit, std::max(0.0, c.rays - rays_of_pair * dark));
   counted(WorkTerm::ray_tests, c.ray_tests);
   counted(WorkTerm::spared, c.rays_spared);
   counted(WorkTerm::kept, c.blockers_kept);
