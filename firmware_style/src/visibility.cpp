@@ -104,7 +104,7 @@ uint32_t visible_fraction_uq16(RunBlockers& run, const Patch& receiver, uint16_t
   const urad_scene& scene = run.scene();
   const bool turned = run.shooter().index > receiver.index;
   const Patch &i = turned ? receiver : run.shooter(), &j = turned ? run.shooter() : receiver;
-  const uint16_t wanted = rays < 1 ? 1 : rays > kMaxRays ? kMaxRays : rays;
+  const uint16_t wanted = rays > kMaxRays ? kMaxRays : rays < 1 ? 1 : rays;
   Candidates candidates(run, receiver);
   const uint32_t known = without_rays(candidates, wanted, counters);
   if (known != kAskRays) return known;

@@ -41,8 +41,9 @@ RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const ur
       last_(last),
       reject_(!(skips_off & skip_off_blockers)),
       unseen_(!(skips_off & skip_off_unseen)),
-      known_(reject_ && run) {
-  if (!known_) return;
+      known_(false) {
+  if (!reject_ || !run) return;
+  known_ = true;
   const Reach to = reach_of(*run);
   urad_point low = reach_.low, high = reach_.high;
   stretch(to.low, to.high, &low, &high);
