@@ -26,6 +26,7 @@ void add_export(CLI::App& app, const Common& common);
 void add_evaluate(CLI::App& app, const Common& common);
 void add_accuracy(CLI::App& app, const Common& common);
 void add_skipping(CLI::App& app, const Common& common);
+void add_kernels(CLI::App& app, const Common& common);
 void add_networks(CLI::App& app, const Common& common);
 void add_reproduce(CLI::App& app, const Common& common);
 void add_stress(CLI::App& app, const Common& common);

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   tool::add_evaluate(app, common);
   tool::add_accuracy(app, common);
   tool::add_skipping(app, common);
+  tool::add_kernels(app, common);
   tool::add_networks(app, common);
   tool::add_reproduce(app, common);
   tool::add_stress(app, common);

@@ -23,7 +23,7 @@ constexpr double kLeastSpread = 0.25;  // bits: a trait that hardly varies is no
 
 /// weights of the hidden layer (with bias), of the output, and past the hidden layer (with bias).
 struct Layers {
-  Eigen::MatrixXd hidden;  // (n + 1) x kErrorHidden
+  Eigen::MatrixXd hidden;  // (n + 1) x hidden neurons
   Eigen::VectorXd out, skip;
 
   Eigen::VectorXd flat() const {
@@ -55,15 +55,15 @@ struct Scaling {
   Eigen::VectorXd mean, spread;
 };
 
-Scaling scaling_of(const std::vector<ErrorSample>& samples, int traits) {
-  Scaling scaling{Eigen::VectorXd::Zero(traits), Eigen::VectorXd::Zero(traits)};
-  for (const ErrorSample& sample : samples)
-    for (int k = 0; k < traits; ++k) scaling.mean[k] += double(sample.trait[std::size_t(k)]);
-  scaling.mean /= double(samples.size());
-  for (const ErrorSample& sample : samples)
-    for (int k = 0; k < traits; ++k)
-      scaling.spread[k] += std::pow(double(sample.trait[std::size_t(k)]) - scaling.mean[k], 2);
-  scaling.spread = (scaling.spread / double(samples.size())).cwiseSqrt().cwiseMax(kLeastSpread);
+Scaling scaling_of(const Eigen::MatrixXd& traits) {
+  const auto count = double(traits.rows());
+  Scaling scaling{Eigen::VectorXd::Zero(traits.cols()), Eigen::VectorXd::Zero(traits.cols())};
+  for (Eigen::Index k = 0; k < traits.cols(); ++k) {
+    for (const double x : traits.col(k)) scaling.mean[k] += x;
+    scaling.mean[k] /= count;
+    for (const double x : traits.col(k)) scaling.spread[k] += std::pow(x - scaling.mean[k], 2);
+  }
+  scaling.spread = (scaling.spread / count).cwiseSqrt().cwiseMax(kLeastSpread);
   return scaling;
 }
 
@@ -99,27 +99,25 @@ urad::ErrorModel rounded(const Layers& net, const Scaling& scaling, int traits) 
   return model;
 }
 
-}  // namespace
-
-urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int traits,
-                                   double quantile, std::uint64_t seed, int steps) {
-  if (samples.empty()) throw Error("no pairs to fit the error of a way to; ask for more pairs");
-  const Scaling scaling = scaling_of(samples, traits);
+/// Adam on the quantile loss.
+Layers trained(const Eigen::MatrixXd& traits, const Eigen::VectorXd& all_errors, int hidden,
+               double quantile, std::uint64_t seed, int steps, const Scaling& scaling) {
+  const auto count = int(traits.cols());
   Random random(seed);
-  Layers net{Eigen::MatrixXd(traits + 1, kErrorHidden), Eigen::VectorXd::Zero(kErrorHidden),
-             Eigen::VectorXd::Zero(traits + 1)};
+  Layers net{Eigen::MatrixXd(count + 1, hidden), Eigen::VectorXd::Zero(hidden),
+             Eigen::VectorXd::Zero(count + 1)};
   for (double& x : net.hidden.reshaped()) x = kStart * random.normal();
   Eigen::VectorXd all = net.flat();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(all.size()), square = mean;
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(kBatch, traits + 1);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(kBatch, count + 1);
   Eigen::VectorXd errors(kBatch);
   double forgotten_mean = 1, forgotten_square = 1;
   for (int step = 0; step < steps; ++step) {
     for (int r = 0; r < kBatch; ++r) {
-      const ErrorSample& sample = samples[std::size_t(random.below(int(samples.size())))];
-      for (int k = 0; k < traits; ++k)
-        rows(r, k) = (double(sample.trait[std::size_t(k)]) - scaling.mean[k]) / scaling.spread[k];
-      errors[r] = double(sample.error);
+      const Eigen::Index sample = random.below(int(traits.rows()));
+      for (int k = 0; k < count; ++k)
+        rows(r, k) = (traits(sample, k) - scaling.mean[k]) / scaling.spread[k];
+      errors[r] = all_errors[sample];
     }
     const Eigen::VectorXd slope = gradient(net, rows, errors, quantile).flat() + kDecay * all;
     mean = kMomentum * mean + (1 - kMomentum) * slope;
@@ -130,7 +128,36 @@ urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int 
                    ((square.array() / (1 - forgotten_square)).sqrt() + kTiny);
     net.set(all);
   }
-  return rounded(net, scaling, traits);
+  return net;
+}
+
+}  // namespace
+
+urad::ErrorModel train_error_model(const std::vector<ErrorSample>& samples, int traits,
+                                   double quantile, std::uint64_t seed, int steps) {
+  if (samples.empty()) throw Error("no pairs to fit the error of a way to; ask for more pairs");
+  Eigen::MatrixXd rows(Eigen::Index(samples.size()), traits);
+  Eigen::VectorXd errors(Eigen::Index(samples.size()));
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    for (int k = 0; k < traits; ++k)
+      rows(Eigen::Index(n), k) = double(samples[n].trait[std::size_t(k)]);
+    errors[Eigen::Index(n)] = double(samples[n].error);
+  }
+  const Scaling scaling = scaling_of(rows);
+  return rounded(trained(rows, errors, kErrorHidden, quantile, seed, steps, scaling), scaling,
+                 traits);
+}
+
+Eigen::VectorXd guess_errors(const Eigen::MatrixXd& traits, const Eigen::VectorXd& errors,
+                             const Eigen::MatrixXd& others, const GuessSettings& settings) {
+  const Scaling scaling = scaling_of(traits);
+  const Layers net = trained(traits, errors, settings.hidden, settings.quantile, settings.seed,
+                             settings.steps, scaling);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(others.rows(), others.cols() + 1);
+  rows.leftCols(others.cols()) = (others.rowwise() - scaling.mean.transpose()).array().rowwise() /
+                                 scaling.spread.transpose().array();
+  const Eigen::MatrixXd sigma = (1 + (-(rows * net.hidden).array()).exp()).inverse();
+  return sigma * net.out + rows * net.skip;
 }
 
 }  // namespace host

@@ -93,6 +93,15 @@ double guess_macs(const urad::CheapestPair& pair) {
   return before * macs(urad::kPairTraits) + (sums + halvings) * macs(urad::kTraits);
 }
 
+}  // namespace
+
+double auto_multiply_adds(const urad::CheapestPair& pair, const urad_net* net) {
+  const bool by_net = pair.way == urad::Way::network;
+  return (by_net ? net_macs(*net) : kMomentMacs) + kPointMacs * pair.point_sums + guess_macs(pair);
+}
+
+namespace {
+
 /// What auto thought of the pair.
 void judge(const TableMethod& method, const urad_scene& scene, const urad::Patch& p,
            const urad::Patch& q, One* one, Work* work) {

@@ -8,6 +8,7 @@
 #include "accuracy/method_table.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "report/instructions.hpp"
+#include "urad/cheapest.hpp"
 
 namespace host {
 
@@ -44,6 +45,9 @@ struct MethodTrials {
   std::vector<MethodTrialTable> families, decades;
   std::vector<std::string> ways;  ///< share of the ways that auto took, a line a family and setting
 };
+
+/// Multiply-adds of what auto did for a pair, its guesses included. net: the one it may have run.
+double auto_multiply_adds(const urad::CheapestPair& pair, const urad_net* net);
 
 /// Times one method after the other on one core; exact factors on all cores.
 MethodTrials try_methods(const TrialRequest& request);

@@ -44,15 +44,20 @@ double centre_kernel(const Moments& i, const Moments& j) {
   return (i.area / r2) * j.area * (p / r2) * q * std::numbers::inv_pi;
 }
 
-double moment_kernel(const Moments& i, const Moments& j) {
-  const double k0 = centre_kernel(i, j);
-  if (!(k0 > 0)) return 0;
+double second_order(const Moments& i, const Moments& j) {
   const Vec3 r = j.centroid - i.centroid;
   const double r2 = glm::dot(r, r);
   const Vec3 u = r / std::sqrt(r2);
-  const double t2 = second_order(i, j.normal, u, r2, glm::dot(j.normal, u)) +
-                    second_order(j, i.normal, u, r2, glm::dot(i.normal, u));
-  return k0 * std::exp(t2 / std::hypot(1.0, t2 / 1.5));
+  return second_order(i, j.normal, u, r2, glm::dot(j.normal, u)) +
+         second_order(j, i.normal, u, r2, glm::dot(i.normal, u));
+}
+
+double bent_kernel(const Moments& i, const Moments& j, double terms) {
+  return centre_kernel(i, j) * std::exp(terms / std::hypot(1.0, terms / 1.5));
+}
+
+double moment_kernel(const Moments& i, const Moments& j) {
+  return centre_kernel(i, j) > 0 ? bent_kernel(i, j, second_order(i, j)) : 0;
 }
 
 double centre_kernel_exchange(const Polygon& p, const Polygon& q) {

@@ -10,6 +10,12 @@ namespace host {
 /// caller has done it.
 double centre_kernel(const Moments& i, const Moments& j);
 
+/// T2, the term of second order in size over distance. Both centroids in front of the other's plane.
+double second_order(const Moments& i, const Moments& j);
+
+/// K0 exp(t / sqrt(1 + (t/1.5)^2)), t the sum of the terms above K0.
+double bent_kernel(const Moments& i, const Moments& j, double terms);
+
 /// K0 exp(T2 / sqrt(1 + (T2/1.5)^2)): second order in size over distance, T2 = sum over both
 /// patches of -2 tr M/R^2 + 12 r.Mr/R^4 - 4 (m.Mr)/((m.r) R^2) with m the other's normal. Not
 /// limited to min(A_i, A_j).

@@ -23,13 +23,13 @@ struct Objective::Part {
 };
 
 Normalisation normalisation(const TrainingSet& set) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(urad::kPairInputs), square = mean;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(set.inputs), square = mean;
   double total = 0;
   for (const Sample& sample : set.samples) {
     if (sample.gate_uq16 == 0) continue;
     total += 1;
-    for (int n = 0; n < urad::kPairInputs; ++n) {
-      const double x = sample.input_q15[std::size_t(n)] / 32768.0;
+    for (int n = 0; n < set.inputs; ++n) {
+      const double x = sample.input(n);
       mean[n] += x;
       square[n] += x * x;
     }
@@ -49,15 +49,14 @@ Objective::Objective(const TrainingSet& set, const Normalisation& normalisation,
   Eigen::Index count = 0;
   for (std::size_t k = 0; k < set.samples.size(); ++k)
     if (set.samples[k].gate_uq16 != 0) place[k] = std::uint32_t(count++);
-  inputs_.resize(count, urad::kPairInputs);
+  inputs_.resize(count, set.inputs);
   gate_.resize(count), target_.resize(count), weight_.resize(count);
   for (std::size_t k = 0; k < set.samples.size(); ++k) {
     const Sample& sample = set.samples[k];
     if (sample.gate_uq16 == 0) continue;
     const Eigen::Index at = place[k];
-    for (int n = 0; n < urad::kPairInputs; ++n)
-      inputs_(at, n) = (sample.input_q15[std::size_t(n)] / 32768.0 - normalisation.mean[n]) /
-                       normalisation.deviation[n];
+    for (int n = 0; n < set.inputs; ++n)
+      inputs_(at, n) = (sample.input(n) - normalisation.mean[n]) / normalisation.deviation[n];
     gate_[at] = sample.gate();
     target_[at] = sample.target;
     weight_[at] = sample.weight;

@@ -84,10 +84,10 @@ double steps_done(const std::vector<Stage>& stages, const TrainerState& state) {
   return steps + double(state.place) * stages[std::size_t(state.stage)].iterations;
 }
 
-TrainerState first_state(const Objective& judge, const TrainerSettings& settings) {
+TrainerState first_state(const Objective& judge, const TrainerSettings& settings, int inputs) {
   TrainerState state;
   for (int id = 0; id < settings.stages.front().keep; ++id) {
-    const FloatNet net = random_start(settings.hidden, settings.seed, id);
+    const FloatNet net = random_start(settings.hidden, settings.seed, id, inputs);
     Candidate candidate;
     candidate.id = id;
     candidate.parameters = candidate.best = to_std(net.parameters);
@@ -98,8 +98,8 @@ TrainerState first_state(const Objective& judge, const TrainerSettings& settings
   return state;
 }
 
-void check_resumed(const TrainerState& state, const TrainerSettings& settings) {
-  const auto size = std::size_t(FloatNet::count(urad::kPairInputs, settings.hidden));
+void check_resumed(const TrainerState& state, const TrainerSettings& settings, int inputs) {
+  const auto size = std::size_t(FloatNet::count(inputs, settings.hidden));
   bool fits = state.stage >= 0 && std::size_t(state.stage) < settings.stages.size() &&
               state.place >= 0 && state.iteration >= 0;
   if (fits) {
@@ -113,14 +113,15 @@ void check_resumed(const TrainerState& state, const TrainerSettings& settings) {
 }
 
 // Starts a stage: the best go on from their best point, judged by the new stage's loss.
-void begin_stage(const Objective& judge, const TrainerSettings& settings, TrainerState* state) {
+void begin_stage(const Objective& judge, const TrainerSettings& settings, int inputs,
+                 TrainerState* state) {
   const Stage& stage = settings.stages[std::size_t(state->stage)];
   std::stable_sort(
       state->candidates.begin(), state->candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.best_value < b.best_value; });
   state->candidates.resize(std::size_t(stage.keep));
   for (Candidate& c : state->candidates) {
-    FloatNet net(urad::kPairInputs, settings.hidden);
+    FloatNet net(inputs, settings.hidden);
     net.parameters = to_eigen(c.best);
     c.parameters = c.best;
     c.best_value = judge.value(net, stage.robust);
@@ -132,12 +133,11 @@ void begin_stage(const Objective& judge, const TrainerSettings& settings, Traine
 
 }  // namespace
 
-FloatNet random_start(int hidden, std::uint64_t seed, int id) {
+FloatNet random_start(int hidden, std::uint64_t seed, int id, int inputs) {
   Random random(seed, std::uint64_t(id));
-  FloatNet net(urad::kPairInputs, hidden);
+  FloatNet net(inputs, hidden);
   for (int k = 0; k < net.output_at(); ++k)
-    net.parameters[k] =
-        random.normal() / (k < net.hidden_bias_at() ? std::sqrt(urad::kPairInputs) : 1);
+    net.parameters[k] = random.normal() / (k < net.hidden_bias_at() ? std::sqrt(inputs) : 1);
   for (int h = 0; h < hidden; ++h) net.parameters[net.output_at() + h] = 0.1 * random.normal();
   return net;
 }
@@ -158,8 +158,8 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
   const bool own_judge = !validation.samples.empty();
   const Objective judge(own_judge ? validation : training, scaling, settings.threads);
 
-  TrainerState state = hooks.resume ? *hooks.resume : first_state(judge, settings);
-  check_resumed(state, settings);
+  TrainerState state = hooks.resume ? *hooks.resume : first_state(judge, settings, training.inputs);
+  check_resumed(state, settings, training.inputs);
   const double all_steps = total_steps(settings.stages);
 
   while (true) {
@@ -167,7 +167,7 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
     for (; state.place < stage.keep; ++state.place, state.iteration = 0) {
       Candidate& c = state.candidates[std::size_t(state.place)];
       while (state.iteration < stage.iterations && !c.finished) {
-        FloatNet net(urad::kPairInputs, settings.hidden);
+        FloatNet net(training.inputs, settings.hidden);
         net.parameters = to_eigen(c.parameters);
         Damping damping{c.damping, c.growth};
         c.finished = !step(objective, scaling, stage.robust, settings.decay, {}, &net, &damping);
@@ -186,13 +186,13 @@ std::optional<FloatNet> train(const TrainingSet& training, const TrainingSet& va
     }
     if (std::size_t(state.stage) + 1 == settings.stages.size()) break;
     ++state.stage, state.place = 0, state.iteration = 0;
-    begin_stage(judge, settings, &state);
+    begin_stage(judge, settings, training.inputs, &state);
   }
 
   const auto best = std::min_element(
       state.candidates.begin(), state.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.best_value < b.best_value; });
-  FloatNet net(urad::kPairInputs, settings.hidden);
+  FloatNet net(training.inputs, settings.hidden);
   net.parameters = to_eigen(best->best);
   return fold_normalisation(net, scaling.mean, scaling.deviation);
 }

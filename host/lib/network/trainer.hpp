@@ -55,7 +55,7 @@ struct TrainerHooks {
 
 /// Number `id` of a seed's random starts, for normalised inputs: weights of unit variance at the
 /// sigmoids' inputs, a weak output, for the kernel alone is nearly right already.
-FloatNet random_start(int hidden, std::uint64_t seed, int id);
+FloatNet random_start(int hidden, std::uint64_t seed, int id, int inputs = urad::kPairInputs);
 
 /// The net that is best on `validation` over all steps of the last stage, for inputs as they are
 /// (no normalisation) and within what the engine can hold (engine_range.hpp), or nothing when the hook stopped it. An empty validation set: `training`

@@ -15,8 +15,12 @@ struct Sample {
       0;              ///< g^2; 0 below the far threshold: the engine does not run the net there
   double target = 0;  ///< log2 of exact exchange over moment kernel
   double weight = 1;  ///< of e^2, relative to the other samples
+  std::int16_t more_q15 = 0;  ///< an input that the engine does not have, for trials
 
   double gate() const { return gate_uq16 / 65536.0; }
+  double input(int n) const {
+    return (n < urad::kPairInputs ? input_q15[std::size_t(n)] : more_q15) / 32768.0;
+  }
 };
 
 /// factor * e(sample) is part of the error of row sum `row`.
@@ -32,6 +36,7 @@ struct TrainingSet {
   std::vector<RowTerm> row_terms;  ///< ordered by sample
   std::uint32_t rows = 0;
   double row_weight = 0;
+  int inputs = urad::kPairInputs;  ///< one more: more_q15 is an input, too
 };
 
 }  // namespace host
