@@ -23,7 +23,7 @@ host::Polygon with_hole() {
   return polygon;
 }
 
-/// Half of the difference of log G when a patch is turned by 180 degrees in its plane: odd orders only.
+/// By 180 degrees in its plane about its centroid: terms of odd order change their sign.
 host::Polygon turned(const host::Polygon& polygon) {
   const host::Moments m = host::moments(polygon);
   host::Polygon result = polygon;
