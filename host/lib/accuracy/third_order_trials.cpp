@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "accuracy/error_training.hpp"
+#include "accuracy/lopsided_pairs.hpp"
 #include "accuracy/method_trials.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "base/parallel.hpp"
@@ -15,7 +15,6 @@
 #include "form_factor/reference.hpp"
 #include "form_factor/third_order.hpp"
 #include "network/random.hpp"
-#include "network/random_direction.hpp"
 #include "scene/builtin.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/cheapest.hpp"
@@ -36,47 +35,6 @@ double quantile(std::vector<double> values, double share) {
   return values[std::size_t(std::lround(share * double(values.size() - 1)))];
 }
 
-struct Kind {
-  const char* name;
-  int corners;
-  double least_radius, most_radius;  // of the first corner; of the others 0.5 .. 1
-  bool symmetric;
-};
-constexpr Kind kKinds[] = {
-    {"parallelograms", 4, 0.5, 1, true},
-    {"convex quads", 4, 0.5, 1, false},
-    {"concave quads", 4, 0.1, 0.3, false},
-    {"triangles", 3, 0.5, 1, false},
-};
-
-/// Corners at random angles and radii about the centre; of a symmetric one every other corner is
-/// opposite an earlier one.
-Polygon shape(const Kind& kind, double size, const Vec3& centre, Random& random) {
-  const glm::dmat3 axes = random_rotation(random);
-  const double stretch = random.log_uniform(0.3, 1);
-  Polygon polygon;
-  for (int k = 0; k < kind.corners; ++k) {
-    if (kind.symmetric && k >= kind.corners / 2) {
-      const Vec3 opposite = polygon.outer[std::size_t(k - kind.corners / 2)];
-      polygon.outer.push_back(2.0 * centre - opposite);
-      continue;
-    }
-    const double angle = 2 * std::numbers::pi * (k + random.uniform(-0.3, 0.3)) / kind.corners;
-    const double radius = size * (k == 0 ? random.uniform(kind.least_radius, kind.most_radius)
-                                         : random.uniform(0.5, 1));
-    polygon.outer.push_back(
-        centre + radius * (std::cos(angle) * axes[0] + stretch * std::sin(angle) * axes[1]));
-  }
-  return polygon;
-}
-
-bool in_front(const Polygon& polygon, const Moments& plane) {
-  return std::all_of(polygon.outer.begin(), polygon.outer.end(),
-                     [&](const Vec3& x) { return glm::dot(plane.normal, x - plane.centroid) > 0; });
-}
-
-double trace(const Moments& m) { return m.second[0][0] + m.second[1][1] + m.second[2][2]; }
-
 struct Off {
   double second = 0, third = 0;  // |K - exact| / exact
 };
@@ -87,21 +45,6 @@ Off off_of(const Polygon& p, const Polygon& q, double exact) {
   const double third = third_order(i, third_moments(p, i), j, third_moments(q, j));
   const auto off = [&](double terms) { return std::fabs(bent_kernel(i, j, terms) / exact - 1); };
   return {off(second), off(second + third)};
-}
-
-PolygonPair draw(const Kind& kind, double least_rho, double most_rho, Random& random) {
-  for (;;) {
-    const double size =
-        random.log_uniform(0.5, 3) * std::sqrt(random.log_uniform(least_rho, most_rho));
-    const Polygon p = shape(kind, size, Vec3(0), random);
-    const Polygon q =
-        shape(kind, size * random.log_uniform(0.2, 1), random_direction(random), random);
-    const Moments i = moments(p), j = moments(q);
-    const Vec3 r = j.centroid - i.centroid;
-    const double rho = (trace(i) + trace(j)) / glm::dot(r, r);
-    if (rho < least_rho || rho >= most_rho || !in_front(q, i) || !in_front(p, j)) continue;
-    return {p, q};
-  }
 }
 
 /// What the kernel of one pair is off by, and what auto does about it.
@@ -117,7 +60,7 @@ double skew(const Polygon& polygon) {
   const Moments m = moments(polygon);
   double sum = 0;
   for (const double value : third_moments(polygon, m).value) sum += std::fabs(value);
-  return sum / std::pow(trace(m), 1.5);
+  return sum / std::pow(squared_size(m), 1.5);
 }
 
 /// Nothing for pairs that are cut or symmetric, or of which moments say nothing.
@@ -163,12 +106,12 @@ std::vector<Asked> asked_of(const std::vector<PolygonPair>& pairs, const std::ve
 }
 
 /// Pairs of a kind, rho spread evenly over decades.
-std::vector<Asked> asked_of(const Kind& kind, std::uint64_t seed, std::size_t count,
+std::vector<Asked> asked_of(const PatchKind& kind, std::uint64_t seed, std::size_t count,
                             const urad_net* net, int threads) {
   std::vector<PolygonPair> pairs(count);
   parallel_for(count, threads, [&](std::size_t k) {
     Random random(seed, k);
-    pairs[k] = draw(kind, kRho[0], kRho[std::size(kRho) - 1], random);
+    pairs[k] = draw_pair(kind, kRho[0], kRho[std::size(kRho) - 1], random);
   });
   return asked_of(pairs, {}, net, threads);
 }
@@ -182,7 +125,7 @@ std::vector<Asked> asked_of_scene(const char* name, std::uint64_t seed, std::siz
   while (pairs.size() < count) {
     const ScenePatch& p = scene.patches[std::size_t(random.below(int(scene.patches.size())))];
     const ScenePatch& q = scene.patches[std::size_t(random.below(int(scene.patches.size())))];
-    if (in_front(q.polygon, p.moments) && in_front(p.polygon, q.moments))
+    if (wholly_in_front(q.polygon, p.moments) && wholly_in_front(p.polygon, q.moments))
       pairs.push_back({p.polygon, q.polygon});
   }
   return asked_of(pairs, {}, net, threads);
@@ -245,7 +188,7 @@ std::vector<ThirdOrderCost> try_third_moments_in_auto(std::uint64_t seed, std::s
                                                       const urad_net* net, int threads) {
   std::vector<Asked> fit, others;
   std::uint64_t stream = 256 * seed;
-  for (const Kind& kind : kKinds)
+  for (const PatchKind& kind : kPatchKinds)
     for (std::vector<Asked>* set : {&fit, &others}) {
       const std::vector<Asked> more = asked_of(kind, ++stream, pairs, net, threads);
       set->insert(set->end(), more.begin(), more.end());
@@ -253,7 +196,7 @@ std::vector<ThirdOrderCost> try_third_moments_in_auto(std::uint64_t seed, std::s
   const Guess two(fit, others, &Asked::second, seed), graded(fit, others, &Asked::graded, seed),
       three(fit, others, &Asked::third, seed);
   std::vector<ThirdOrderCost> rows;
-  for (const Kind& kind : kKinds)
+  for (const PatchKind& kind : kPatchKinds)
     if (!kind.symmetric)
       judge(kind.name, asked_of(kind, ++stream, pairs, net, threads), two, graded, three, &rows);
   for (const TrialFamily& family : trial_families()) {
@@ -282,12 +225,12 @@ std::string third_order_table(const std::vector<ThirdOrderCost>& rows) {
 
 std::vector<ThirdOrderRow> try_third_moments(std::uint64_t seed, std::size_t pairs, int threads) {
   std::vector<ThirdOrderRow> rows;
-  for (const Kind& kind : kKinds)
+  for (const PatchKind& kind : kPatchKinds)
     for (std::size_t d = 0; d + 1 < std::size(kRho); ++d) {
       std::vector<double> second(pairs), third(pairs);
       parallel_for(pairs, threads, [&](std::size_t k) {
         Random random(16 * seed + rows.size(), k);
-        const PolygonPair pair = draw(kind, kRho[d], kRho[d + 1], random);
+        const PolygonPair pair = draw_pair(kind, kRho[d], kRho[d + 1], random);
         const Off off = off_of(pair.p, pair.q, reference_exchange(pair.p, pair.q));
         second[k] = off.second, third[k] = off.third;
       });
