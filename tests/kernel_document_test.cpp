@@ -24,17 +24,18 @@ TEST_CASE("the document of other kernels holds every trial") {
 }
 
 TEST_CASE("a guess of any width covers the share of errors it was asked to cover") {
-  constexpr std::uint64_t kSeed = 11;
+  constexpr std::uint64_t kGuessSeed = 11;
   constexpr Eigen::Index kSamples = 4000;
-  MESSAGE("seed ", kSeed);
-  host::Random random(kSeed);
+  MESSAGE("seed ", kGuessSeed);
+  host::Random random(kGuessSeed);
   Eigen::MatrixXd traits(kSamples, 2);
   Eigen::VectorXd errors(kSamples);
   for (Eigen::Index k = 0; k < kSamples; ++k) {
     traits(k, 0) = random.uniform(-8, 0), traits(k, 1) = random.uniform(-2, 2);
     errors[k] = 2 * traits(k, 0) + traits(k, 1) * traits(k, 1) + random.normal();
   }
-  const Eigen::VectorXd guess = host::guess_errors(traits, errors, traits, {24, 0.9, kSeed, 3000});
+  const Eigen::VectorXd guess =
+      host::guess_errors(traits, errors, traits, {24, 0.9, kGuessSeed, 3000});
   const auto covered = double((guess.array() >= errors.array()).count()) / double(kSamples);
   CHECK(covered > 0.87);
   CHECK(covered < 0.93);

@@ -138,9 +138,11 @@ class Guess {
         std::uint64_t seed)
       : kernel_(kernel) {
     std::vector<ErrorSample> samples;
+    samples.reserve(fit.size());
     for (const Asked& one : fit) samples.push_back(one.*kernel);
     model_ = train_error_model(samples, urad::kPairTraits, kHolds, seed, kGuessSteps);
     std::vector<double> off;
+    off.reserve(others.size());
     for (const Asked& one : others) off.push_back(double((one.*kernel).error) - at(one));
     shift_ = quantile(off, kHolds);
   }
