@@ -11,6 +11,7 @@
 #include "accuracy/error_training.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "base/parallel.hpp"
+#include "base/quantile.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/cheapest.hpp"
 
@@ -144,11 +145,6 @@ constexpr Task kTasks[] = {
 
 std::size_t task_of(Way way) {
   return std::min<std::size_t>(std::size_t(way) - 1, 4);  // nine points and refined share one
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(std::lround(share * double(values.size() - 1)))];
 }
 
 /// Error less estimate of the pairs of one class that a way was chosen for.

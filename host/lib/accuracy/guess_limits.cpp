@@ -9,6 +9,7 @@
 #include "accuracy/error_training.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "base/parallel.hpp"
+#include "base/quantile.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/cheapest.hpp"
 
@@ -129,12 +130,6 @@ Eigen::MatrixXd rows_of(const std::vector<Outcome>& outcomes, Told told, std::si
     }
   }
   return rows;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(std::lround(share * double(values.size() - 1)))];
 }
 
 /// guess less error, log2, of one family.

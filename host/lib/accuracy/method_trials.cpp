@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/quantile.hpp"
 #include "method/engine_source.hpp"
 #include "scene/fixed_scene.hpp"
 #include "urad/cheapest.hpp"
@@ -143,10 +144,6 @@ std::vector<One> try_one(const PairSet& set, const TableMethod& method,
   return result;
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted.empty() ? 0 : sorted[std::size_t(std::lround(share * double(sorted.size() - 1)))];
-}
-
 MethodTrialRow row_of(const std::string& label, const std::vector<One>& ones) {
   MethodTrialRow row;
   row.label = label;
@@ -166,13 +163,13 @@ MethodTrialRow row_of(const std::string& label, const std::vector<One>& ones) {
   }
   std::sort(errors.begin(), errors.end());
   std::sort(by_error.begin(), by_error.end());
-  row.median = quantile(errors, 0.5), row.p95 = quantile(errors, 0.95);
-  row.p99 = quantile(errors, 0.99), row.max = quantile(errors, 1);
+  row.median = quantile_of_sorted(errors, 0.5), row.p95 = quantile_of_sorted(errors, 0.95);
+  row.p99 = quantile_of_sorted(errors, 0.99), row.max = quantile_of_sorted(errors, 1);
   if (!ones.empty() && ones.front().multiply_adds) row.multiply_adds = macs;
   if (!ones.empty() && ones.front().instructions) row.instructions = counted;
   if (!by_error.empty()) {
-    row.estimate = {missed / double(by_error.size()), quantile(by_error, 0.5),
-                    quantile(by_error, 0.9)};
+    row.estimate = {missed / double(by_error.size()), quantile_of_sorted(by_error, 0.5),
+                    quantile_of_sorted(by_error, 0.9)};
   }
   return row;
 }

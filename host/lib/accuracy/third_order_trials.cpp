@@ -11,6 +11,7 @@
 #include "accuracy/method_trials.hpp"
 #include "accuracy/trial_pairs.hpp"
 #include "base/parallel.hpp"
+#include "base/quantile.hpp"
 #include "form_factor/kernel.hpp"
 #include "form_factor/reference.hpp"
 #include "form_factor/third_order.hpp"
@@ -29,11 +30,6 @@ constexpr double kHolds = 0.99;
 constexpr int kGuessSteps = 8000;
 constexpr double kThirdMacs = 2 * 33;  // 12 for four components, 3 for a square, 18 for sums
 constexpr double kRho[] = {1e-4, 1e-3, 1e-2, 0.1, 0.35};  // of moments_do()
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(std::lround(share * double(values.size() - 1)))];
-}
 
 struct Off {
   double second = 0, third = 0;  // |K - exact| / exact

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.hpp"
+
 namespace host {
 
 namespace {
-
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto last = double(sorted.size() - 1);
-  return sorted[std::size_t(std::lround(share * last))];
-}
 
 constexpr double kDecades[] = {0, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 2};
 constexpr const char* kDecadeNames[] = {"F < 1e-5",     "F 1e-5..1e-4", "F 1e-4..1e-3",
@@ -34,10 +30,10 @@ ErrorRow error_row(const std::string& name, const std::vector<Measured>& pairs) 
     if (pair.exact > 0) relative.push_back(std::fabs(error) / pair.exact);
   }
   std::sort(relative.begin(), relative.end());
-  row.median = quantile(relative, 0.5);
-  row.p95 = quantile(relative, 0.95);
-  row.p99 = quantile(relative, 0.99);
-  row.max = quantile(relative, 1);
+  row.median = quantile_of_sorted(relative, 0.5);
+  row.p95 = quantile_of_sorted(relative, 0.95);
+  row.p99 = quantile_of_sorted(relative, 0.99);
+  row.max = quantile_of_sorted(relative, 1);
   if (!pairs.empty()) {
     const auto n = double(pairs.size());
     row.bias = sum / n;
