@@ -90,6 +90,20 @@ host::Scene box_with_plate(int cuts) {
   return host::load_scene((folder / "plate.obj").string(), mesh);
 }
 
+/// A lamp that is a box, looked at from outside.
+host::Scene outward_box() {
+  const auto folder = std::filesystem::path(URAD_SCRATCH_DIR) / "pose_table_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "lamp.mtl") << "newmtl l\nKd .5 .5 .5\nKe 1 1 1\n";
+  std::ofstream(folder / "lamp.obj")
+      << "mtllib lamp.mtl\nusemtl l\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+         "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+         "f 4 3 2 1\nf 2 6 5 1\nf 8 7 3 4\nf 5 8 4 1\nf 3 7 6 2\nf 5 6 7 8\n";
+  host::MeshOptions mesh;
+  mesh.subdivide = 2;
+  return host::load_scene((folder / "lamp.obj").string(), mesh);
+}
+
 }  // namespace
 
 TEST_CASE("the report's cube has 224 poses, and its table is the reference to half a unit") {
@@ -112,6 +126,18 @@ TEST_CASE(
 
 TEST_CASE("with blockers, pairs that may be hidden have factors of their own, times what is seen") {
   check_scene(box_with_plate(3));
+}
+
+TEST_CASE("poses count in a room, and not where nothing faces anything") {
+  const auto poses = [](const host::Scene& scene) {
+    const host::FixedScene fixed(scene);
+    const host::PoseTable table = host::make_pose_table(scene, fixed, 0);
+    urad_counters counters{};
+    rows(fixed.pod(), table.pod(), &counters);
+    return counters.poses;
+  };
+  CHECK(poses(host::load_scene("cube7")) == 72030);
+  CHECK(poses(outward_box()) == 0);
 }
 
 TEST_CASE("two pairs share a factor only if it is theirs") {

@@ -43,6 +43,9 @@ std::uint64_t looked_at(const urad_counters& c) {
   return std::uint64_t{c.evaluated} + c.skipped_facing - c.skipped_behind;
 }
 
+/// Ray tests that looked at the polygon.
+std::uint64_t looks(const urad_counters& c) { return c.ray_tests - c.tests_unseen; }
+
 }  // namespace
 
 TEST_CASE("one skip of the pairs off: the same bits, and as much more work as its counter said") {
@@ -68,14 +71,16 @@ TEST_CASE("one skip of the pairs off: the same bits, and as much more work as it
     CHECK(all.rays == c.rays + c.rays_spared);
     CHECK(all.blocked == c.blocked);
     CHECK(all.shut_unseen == 0);
-    // Boxes and shadows of rays, and whom the ray before met.
-    for (const std::uint32_t also : {0u, std::uint32_t{urad::skip_off_blockers}}) {
-      const urad_counters whole = off(urad::skip_off_unseen | also), &part = also ? all : c;
+    // Boxes and shadows of rays, whatever else is off and in whatever order.
+    for (const std::uint32_t also :
+         {0u, std::uint32_t{urad::skip_off_blockers}, std::uint32_t{urad::skip_off_order}}) {
+      const urad_counters part = also ? off(also) : c, whole = off(urad::skip_off_unseen | also);
       CHECK(whole.tests_unseen == 0);
+      CHECK(looks(whole) == looks(part) + part.tests_unseen);
       CHECK(whole.rays == part.rays);
       CHECK(whole.blocked == part.blocked);
-      CHECK(whole.ray_tests >= part.ray_tests);
     }
+    CHECK(off(urad::skip_off_order).ray_tests >= c.ray_tests);
   }
 }
 

@@ -48,7 +48,7 @@ struct Setting {
 constexpr uint32_t kBeforeRays = urad::skip_off_far | urad::skip_off_facing | urad::skip_off_same |
                                  urad::skip_off_behind | urad::skip_off_convex |
                                  urad::skip_off_blockers;
-constexpr uint32_t kAll = kBeforeRays | urad::skip_off_unseen;
+constexpr uint32_t kAll = kBeforeRays | urad::skip_off_unseen | urad::skip_off_order;
 constexpr Setting kSettings[] = {{"on", 0, 0},
                                  {"same", urad::skip_off_same, 0},
                                  {"behind", urad::skip_off_behind, 0},
@@ -57,6 +57,7 @@ constexpr Setting kSettings[] = {{"on", 0, 0},
                                  {"convex", urad::skip_off_convex, 0},
                                  {"blockers", urad::skip_off_blockers, 0},
                                  {"unseen", urad::skip_off_unseen, 0},
+                                 {"order", urad::skip_off_order, 0},
                                  {"before_rays", kBeforeRays, 0},
                                  {"all", kAll, 0},
                                  {"bounded", 0, 1u << 26},

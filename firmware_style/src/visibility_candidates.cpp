@@ -41,6 +41,7 @@ RunBlockers::RunBlockers(const urad_scene& scene, const Patch& shooter, const ur
       last_(last),
       reject_(!(skips_off & skip_off_blockers)),
       unseen_(!(skips_off & skip_off_unseen)),
+      order_(!(skips_off & skip_off_order)),
       known_(false) {
   if (!reject_ || !run) return;
   known_ = true;
@@ -109,8 +110,7 @@ Candidates::Candidates(RunBlockers& run, const Patch& receiver) noexcept
       return more;
     });
   }
-  // The last to stop a ray goes first.
-  if (!run.unseen_) return;
+  if (!run.order_) return;
   for (int k = 1; k < count_; ++k) {
     if (asked_[k].blocker != *run.last_) continue;
     const Asked first = asked_[0];
@@ -179,7 +179,7 @@ bool Candidates::stop(const urad_point& a, const urad_point& b, bool turned,
   for (int k = 0; k < count_; ++k) {
     ++counters->ray_tests;
     if (!across(asked_[k], from, to, coarse_from, coarse_to, counters)) continue;
-    if (!run_.unseen_) return true;
+    if (!run_.order_) return true;
     const Asked first = asked_[0];
     asked_[0] = asked_[k];
     asked_[k] = first;
@@ -189,12 +189,16 @@ bool Candidates::stop(const urad_point& a, const urad_point& b, bool turned,
   if (rest_ == blocker_count_) return false;
   bool stopped = false;
   const auto missed = [&](const urad_point& low, const urad_point& high) {
-    return run_.unseen_ && boxes_apart(a, b, low, high);
+    return run_.reject_ && boxes_apart(a, b, low, high);
   };
   walk_blockers(scene, missed, [&](uint16_t number) {
+    if (number < rest_) return true;
     const urad_blocker& blocker = scene.blocker[number];
-    if (number < rest_ || missed(blocker.low, blocker.high)) return true;
     ++counters->ray_tests;
+    if (run_.unseen_ && boxes_apart(a, b, blocker.low, blocker.high)) {
+      ++counters->tests_unseen;
+      return true;
+    }
     const PlaneSide at_from = plane_side(scene, run_.shooter_, blocker),
                     at_to = plane_side(scene, receiver_, blocker);
     stopped = astride(at_from, at_to) &&

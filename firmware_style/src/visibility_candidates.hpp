@@ -39,6 +39,7 @@ class RunBlockers {
   uint16_t* last_;
   bool reject_;  // blockers before any ray
   bool unseen_;  // and, ray by ray, those that its box or shadow tells of
+  bool order_;   // the last to stop a ray goes first
   bool known_;   // the list holds all that matter
   int count_ = 0;
   Listed listed_[kListed];

@@ -18,16 +18,18 @@ inline constexpr int32_t kNoExchange = INT32_MIN;
 
 /// Which skips are switched OFF (for tests): the factors keep their bits, the counters change.
 enum SkipOff : uint32_t {
-  skip_off_far = 1,       ///< far pairs run the network, too: `networks` takes up far_pairs
-  skip_off_facing = 2,    ///< pairs that look away go all the way: `evaluated` takes up the rest
-  skip_off_same = 4,      ///< patches of one plane are looked at one by one, and found to look away
-  skip_off_behind = 8,    ///< so are those of surfaces wholly behind
-  skip_off_convex = 16,   ///< convex scenes ask for rays, too: rays_spared takes up skipped_convex
-                          ///< times rays
+  skip_off_far = 1,      ///< far pairs run the network, too: `networks` takes up far_pairs
+  skip_off_facing = 2,   ///< pairs that look away go all the way: `evaluated` takes up the rest
+  skip_off_same = 4,     ///< patches of one plane are looked at one by one, and found to look away
+  skip_off_behind = 8,   ///< so are those of surfaces wholly behind
+  skip_off_convex = 16,  ///< convex scenes ask for rays, too: rays_spared takes up skipped_convex
+                         ///< times rays
   skip_off_blockers = 32,  ///< rays are made and tested against all blockers: `rays` takes up
                            ///< rays_spared, blockers_kept takes up blockers_rejected
-  skip_off_unseen = 64     ///< a ray looks at every polygon it is tested against, past its box and
-                           ///< its shadow, in the order of the scene: tests_unseen stays 0
+  skip_off_unseen = 64,    ///< a ray looks at every polygon it is tested against, past its box and
+                           ///< its shadow: such looks take up tests_unseen
+  skip_off_order = 128  ///< a ray asks blockers in the order of the scene, not the one first that
+                        ///< stopped the ray before: no skip but an order, without a counter
 };
 
 /// Invariants of two patches of the scene after each was cut to the other's front half-space.

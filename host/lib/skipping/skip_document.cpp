@@ -127,6 +127,7 @@ std::string instruction_table(const std::vector<SkipReport>& reports) {
            {"convex", "convex off"},
            {"blockers", "blockers unseen off: before any ray"},
            {"unseen", "blockers unseen off: ray by ray"},
+           {"order", "the last to stop a ray not first"},
            {"before_rays", "all off, but ray by ray"},
            {"all", "all off"},
            {"bounded", fmt::format("on, and a bound of {:.3g} a row", kSkipBound)}}) {
