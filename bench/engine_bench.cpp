@@ -5,6 +5,7 @@
 
 #include "fixtures.hpp"
 #include "form_factor/kernel.hpp"
+#include "network/net_rounding.hpp"
 #include "network/quantise.hpp"
 #include "network/random.hpp"
 #include "urad/clip.hpp"

@@ -1,6 +1,7 @@
 // A small finished network, for tests of files and headers.
 #pragma once
 #include "network/net_json.hpp"
+#include "network/net_rounding.hpp"
 #include "network/quantise.hpp"
 #include "network/random.hpp"
 #include "urad/pair.hpp"

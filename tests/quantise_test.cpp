@@ -1,5 +1,6 @@
 // Integers against the net they come from: the engine's own network_run() is what is measured.
 #include "network/quantise.hpp"
+#include "network/net_rounding.hpp"
 
 #include <doctest/doctest.h>
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "network/checkpoint.hpp"
 #include "network/engine_range.hpp"
+#include "network/net_rounding.hpp"
 #include "network/quantise.hpp"
 #include "network/random.hpp"
 

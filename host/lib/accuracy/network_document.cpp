@@ -129,7 +129,8 @@ exact sum (rho above 0.3, cut); std is of F - exact. cube7 is among nobody's pai
 ## What integers cost
 
 The same statistic of the integers by that of the network in double, less 1: the median of the seeds and the worst. int8:
-hidden weights of 8 bits, a scale a neuron; as each is rounded, the rest learns to say what the network in double says.
+hidden weights of 8 bits, a scale a neuron; as each is rounded, the rest learns to say what the network in double says, and
+then all walk by whole steps to where that is said best.
 
 {}
 ## Who stands on a front
