@@ -17,6 +17,7 @@
 #include "solve/scene_solver.hpp"
 #include "urad/cheapest.hpp"
 #include "urad/lambert.hpp"
+#include "urad/third_order.hpp"
 #include "weights/general.h"
 
 namespace {
@@ -30,6 +31,7 @@ struct Answer {
   double f = 0, estimate = 0;
   urad::Way way = urad::Way::none;
   std::int32_t log2_g_q24 = 0;
+  std::uint16_t cubics = 0;
 };
 
 Answer answer(const host::FixedScene& scene, double error, const urad_net* net,
@@ -42,11 +44,20 @@ Answer answer(const host::FixedScene& scene, double error, const urad_net* net,
   CHECK(counters.evaluated + counters.skipped_facing == 1);
   if (pair.way == urad::Way::none) return {};
   return {std::exp2((pair.log2_exchange_q24 - p.shape->log2_area_q24) * 0x1p-24),
-          std::exp2(pair.log2_error_q8 / 256.0), pair.way, pair.log2_exchange_q24};
+          std::exp2(pair.log2_error_q8 / 256.0), pair.way, pair.log2_exchange_q24, pair.cubics};
 }
 
 host::FixedScene scene_of(const host::PolygonPair& pair) {
   return host::FixedScene::of_polygons({pair.p, pair.q}, {});
+}
+
+/// log2 G of a pair that is not cut.
+std::int32_t by_third_moments(const urad_scene& scene, const urad::Patch& p, const urad::Patch& q) {
+  urad::PairKernel kernel;
+  REQUIRE(urad::pair_kernel(*p.shape, p.centroid, *q.shape, q.centroid, &kernel));
+  const std::int32_t t3_q22 = urad::third_order(scene, p, q, kernel).t3_q22;
+  return std::min({kernel.log2_kernel_q24 + urad::log2_bend_q24(kernel, t3_q22),
+                   p.shape->log2_area_q24, q.shape->log2_area_q24});
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -163,7 +174,7 @@ TEST_CASE("the points of a sum are those of its rules: one, four, nine, eighteen
 }
 
 TEST_CASE("a way that is asked for by itself gives what the search finds on it") {
-  std::size_t pairs[urad::kWays] = {};
+  std::size_t pairs[urad::kWays] = {}, with_third_moments = 0;
   for (const host::TrialFamily& family : host::trial_families()) {
     const host::PairSet set = test_pairs(family, 25);
     for (const host::PolygonPair& pair : set.pairs) {
@@ -191,6 +202,11 @@ TEST_CASE("a way that is asked for by itself gives what the search finds on it")
           continue;
         }
         CHECK(urad::exchange_by(scene, p, q, found.way, &urad_general, &log2_g_q24, &traits));
+        if (found.cubics > 0) {
+          CHECK(found.way == urad::Way::kernel);
+          log2_g_q24 = by_third_moments(scene, p, q);
+          ++with_third_moments;
+        }
         CHECK(log2_g_q24 == found.log2_g_q24);
         CHECK_FALSE(
             urad::exchange_by(scene, p, q, urad::Way::network, nullptr, &log2_g_q24, &traits));
@@ -200,6 +216,7 @@ TEST_CASE("a way that is asked for by itself gives what the search finds on it")
   for (const urad::Way way : {urad::Way::kernel, urad::Way::network, urad::Way::point,
                               urad::Way::four_points, urad::Way::refined})
     CHECK(pairs[int(way)] > 0);
+  CHECK(with_third_moments > 0);
   // Back to back: nothing by any way.
   const host::Polygon floor{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}};
   const host::Polygon below{{{0, 0, -1}, {0, 1, -1}, {1, 1, -1}, {1, 0, -1}}, {}};

@@ -5,6 +5,7 @@
 #include "cheapest_traits.hpp"
 #include "lambert_refiner.hpp"
 #include "urad/network.hpp"
+#include "urad/third_order.hpp"
 
 namespace urad {
 
@@ -46,7 +47,7 @@ class Search {
     wanted_q8_ = log2_error_q8;
     floor_q8_ = grid_q8(traits_);
     if (moments_do(traits_)) {
-      if (guess(models_.kernel)) return found(by_kernel_q24(kernel_), Way::kernel);
+      if (kernel_does()) return found(by_kernel_q24(kernel_), Way::kernel);
       if (net && !cut() && guess(models_.network))
         return found(by_network_q24(kernel_, *net), Way::network);
     }
@@ -60,7 +61,7 @@ class Search {
   }
 
   CheapestPair nothing() const noexcept {
-    return {kNoExchange, none_q8(scene_, i_, j_), Way::none, point_sums_};
+    return {kNoExchange, none_q8(scene_, i_, j_), Way::none, point_sums_, 0};
   }
 
   bool cut() const noexcept { return traits_.pair_class == PairClass::cut; }
@@ -70,13 +71,34 @@ class Search {
     guess_q8_ = error_q8(model, traits_);
     return guess_q8_ <= wanted_q8_;
   }
+  /// The kernel with third moments is as good for lopsided patches as the one without is for
+  /// symmetric ones, and one guess does for both. They are only computed where they may matter.
+  bool kernel_does() noexcept {
+    if (traits_.pair_class != PairClass::lopsided) return guess(models_.kernel);
+    int16_t& shapes = traits_.log2_q8[trait_shapes];
+    const int16_t lopsided = shapes;
+    shapes = 0;
+    const bool good = guess(models_.kernel);
+    shapes = lopsided;
+    if (!good) return false;
+    const int32_t third_q8 = most_third_q8(traits_);
+    if (third_q8 > wanted_q8_) {
+      const ThirdOrder third = third_order(scene_, i_, j_, kernel_);
+      kernel_.log2_bend_q24 = log2_bend_q24(kernel_, third.t3_q22);
+      cubics_ = third.cubics;
+    } else {
+      guess_q8_ = greatest(guess_q8_, third_q8);
+    }
+    return true;
+  }
+
   /// The guess, or what rounding leaves open where that is more.
   int16_t said_q8(int32_t rounding_q8) const noexcept {
     return int16_t(least(greatest(greatest(guess_q8_, floor_q8_), rounding_q8), kMostError_q8));
   }
 
   CheapestPair found(int32_t log2_g_q24, Way way) const noexcept {
-    return {least(log2_g_q24, limit_q24_), said_q8(kLeastError_q8), way, point_sums_};
+    return {least(log2_g_q24, limit_q24_), said_q8(kLeastError_q8), way, point_sums_, cubics_};
   }
 
   /// What is known after a sum; true when it is good enough.
@@ -123,7 +145,7 @@ class Search {
   int32_t limit_q24_ = 0;
   int32_t guess_q8_ = 0, floor_q8_ = 0;
   int16_t wanted_q8_ = 0;
-  uint16_t point_sums_ = 0;
+  uint16_t point_sums_ = 0, cubics_ = 0;
 };
 
 }  // namespace
@@ -143,6 +165,8 @@ CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scen
   if (pair.way > Way::network) ++counters->near_pairs;
   return pair;
 }
+
+const ErrorModels& error_models() noexcept { return kErrorModels; }
 
 CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Patch& j,
                                const urad_net* net, int16_t log2_error_q8,

@@ -82,14 +82,15 @@ bool comes_first(const PairSide& x, int16_t slant_x, const PairSide& y, int16_t 
   return a.fill_uq15 >= b.fill_uq15;
 }
 
-/// T2 / sqrt(1 + (T2/1.5)^2) in units of log2. |T2| <= 36, so its square in Q28 fits 40 bits.
-int32_t bend_q24(int32_t t2_q22) noexcept {
-  const int64_t t2_q14 = round_shift(t2_q22, 8);
-  const uint32_t square_uq20 = uint32_t(uint64_t(t2_q14 * t2_q14) >> 8);
+/// T / sqrt(1 + (T/1.5)^2) in units of log2, T = T2 or T2 + T3. |T2| <= 36 and |T3| <= 8, so the
+/// square in Q28 fits 39 bits.
+int32_t bend_q24(int32_t t_q22) noexcept {
+  const int64_t t_q14 = round_shift(t_q22, 8);
+  const uint32_t square_uq20 = uint32_t(uint64_t(t_q14 * t_q14) >> 8);
   const uint32_t x_uq20 =
       (square_uq20 >> 16) * 29127u + (((square_uq20 & 0xFFFFu) * 29127u) >> 16);  // times 4/9
   const uint32_t factor_uq15 = exp2_uq(kLog2Log2E_q24 - shift_down(log2_1p_q24(x_uq20, 20), 1), 15);
-  return mul_round(t2_q22, int32_t(factor_uq15), 13);
+  return mul_round(t_q22, int32_t(factor_uq15), 13);
 }
 
 void put(const PairSide& side, int16_t slant, uint32_t shrink_uq16, int16_t* input_q15) noexcept {
@@ -145,6 +146,10 @@ bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_s
                                                          : int32_t(log2_kernel_q24);
   kernel->log2_bend_q24 = bend_q24(t2_q22(side[0]) + t2_q22(side[1]));
   return true;
+}
+
+int32_t log2_bend_q24(const PairKernel& kernel, int32_t t3_q22) noexcept {
+  return bend_q24(t2_q22(kernel.side[0]) + t2_q22(kernel.side[1]) + t3_q22);
 }
 
 int32_t log2_extent_q24(const PairKernel& kernel) noexcept {

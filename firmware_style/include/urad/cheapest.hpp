@@ -1,7 +1,8 @@
 // cheapest.hpp -- the cheapest way to a form factor that is accurate enough, and how accurate it
 // is.
 //
-//   kernel       moment kernel
+//   kernel       moment kernel; with third moments, where a patch has no centre of symmetry and
+//                they may matter                                               third_order.hpp
 //   network      moment kernel times a general network, if there is one
 //   point        exact sum at the carrier's middle (of each of its pieces)              lambert.hpp
 //   four points  exact sum at 2 x 2 points of each piece
@@ -31,15 +32,20 @@ struct CheapestPair {
   int16_t log2_error_q8;
   Way way;
   uint16_t point_sums;  ///< points of all the sums that were tried
+  uint16_t cubics;      ///< of third moments (third_order.hpp)
 };
 
 /// The cheapest way whose estimate is at most 2^log2_error; if none is, the refined sum, which says
 /// what it reached. net null: without networks. (i, j) and (j, i) give the same bits. Counted as
 /// exchange_log2_q24() counts; a kernel alone counts as a far pair, a sum as a near one.
-///   Cost   a pair for which the kernel will do: the kernel, 8 log2, 8 products of 16 bits
+///   Cost   a pair for which the kernel will do: the kernel, 8 log2, 8 products of 16 bits; third
+///          moments where they may matter
 CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Patch& j,
                                const urad_net* net, int16_t log2_error_q8,
                                urad_counters* counters) noexcept;
+
+/// Its constants.
+const ErrorModels& error_models() noexcept;
 
 /// The same by other constants: what fits them.
 CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scene, const Patch& i,
@@ -47,8 +53,8 @@ CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scen
                                urad_counters* counters) noexcept;
 
 /// One way, whatever it costs and however wrong it is, and the traits of the pair: what constants
-/// are fitted to. False when the pair exchanges nothing, or only its sum
-/// can tell (`traits` is then undefined).
+/// are fitted to. The kernel goes without third moments. False when the pair exchanges nothing, or
+/// only its sum can tell (`traits` is then undefined).
 bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way way,
                  const urad_net* net, int32_t* log2_exchange_q24, PairTraits* traits) noexcept;
 

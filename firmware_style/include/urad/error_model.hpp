@@ -31,7 +31,8 @@ enum Trait {
   trait_grain,   ///< a scene unit by the lower height: what rounded vertices can do
   trait_factor,  ///< the kernel's factor of the smaller patch
   trait_facing,  ///< -4 n_i.n_j; no logarithm
-  trait_shapes,  ///< how many are no parallelograms; no logarithm
+  trait_shapes,  ///< how many are no parallelograms; no logarithm. 0 with third moments: the same
+                 ///< guess then does for all
   trait_cut,     ///< 4 where the receiver was cut and 8 where the carrier; no logarithm
   kPairTraits,
   trait_off = kPairTraits,  ///< |log2 of the sum by the kernel|

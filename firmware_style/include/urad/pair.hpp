@@ -65,6 +65,9 @@ struct PairKernel {
 bool pair_kernel(const urad_shape& i, const urad_point& centroid_i, const urad_shape& j,
                  const urad_point& centroid_j, PairKernel* kernel) noexcept;
 
+/// The bend with a third term, of third_order.hpp: of T2 + T3, |T3| <= 8.
+int32_t log2_bend_q24(const PairKernel& kernel, int32_t t3_q22) noexcept;
+
 /// log2 of what the extent of side 0 (patch i) makes of the factor from its centroid, Q7.24,
 /// below 2.17: the half of the bend that an eye at the centroid cannot see.
 int32_t log2_extent_q24(const PairKernel& kernel) noexcept;

@@ -31,27 +31,29 @@ std::string kernel_document(const KernelTrials& trials, const std::string& comma
       R"(# What was tried instead
 
 Written by `{}`. Ways to a form factor, and to a guess at its error, that the engine does not have,
-beside those it has, in one run and in double: why it is as it is.
+beside those it has, in one run, and in double where nothing else is said: why it is as it is. Third moments are the one that
+was taken over.
 
 ## Third moments
 
 T3 is the term of third order in size over distance of the series from which the moment kernel has T2: nothing for a patch with
-a centre of symmetry. Pairs wholly in front of each other, |K - exact| / exact. A kernel with T3 takes 66 multiply-adds more than
-one with T2 (55), and 20 bytes more of every patch: four moments in two axes of its plane.
+a centre of symmetry. Pairs wholly in front of each other, |K - exact| / exact.
 
 {}
-What auto would save. A guess at the error of either kernel, fitted to pairs of its own and moved until it holds for 99 % of
-others, lets so many pairs pass without network or sum. Pairs that are not cut, rho up to 0.35, at least one of the two no
-parallelogram; of the first three kinds rho is spread evenly over decades, the others are families of [METHODS.md](METHODS.md),
-test pairs, and pairs of a scene. With three moments every such pair pays for T3, as a second guess would cost four times as much. The shares are of the first and the last kernel.
+T3 takes the error of lopsided patches to that of parallelograms. So the guess that auto has for those holds for all, once T3
+is in, but for a constant: no guess is added, and T3 is computed after it and only for pairs that pass, where 3/2 of the bends
+do not already say that T3 is less than the error asked for. T3 is a mean of a cubic form, which corners give exactly: no moment
+is stored, scenes are as they were, and a triangle costs 36 multiply-adds (corners of others 28 each) where four stored moments
+would cost 33 and 20 bytes of every polygon.
+
+What auto saves, in the engine's integers: as it is ("three"), and with a kernel that has two moments, its guess
+told how lopsided the two are and moved until it holds for 99 % of other pairs. Pairs that are not cut, rho up to 0.35, at least
+one of the two no parallelogram; of the first three kinds rho is spread evenly over decades, the others are families of
+[METHODS.md](METHODS.md), test pairs, and pairs of a scene. "hold": of the pairs by the kernel.
 
 {}
-T3 takes the error of lopsided patches to that of parallelograms. Far apart, where it does so by factors, both are below what
-anybody asks for; what is won is the band of rho in which the kernel now does. The last three columns are the balance: auto as it is,
-by guesses fitted to these pairs and told how lopsided the two are, and those with T3. It costs more at 10 %, as much at 3 %, and is
-cheaper at 1 % and below: by a tenth to a fifth for triangles, by hundredths for free quads near each other, by a third and more
-where quads are parallelograms but for a hundredth (the Cornell box), of which no guess knows that T2 alone is as good for them. The engine has no T3:
-every polygon would be a third larger in flash, and no other scene of the program has a lopsided patch.
+The kernel of `fixed-moment` and that under the network have no T3: either would pay for it at every pair, which auto need not,
+and a network wins little by it (below).
 
 ## Other kernels for the network, other inputs
 

@@ -23,6 +23,7 @@ constexpr double kCentreMacs = 13, kMomentMacs = 55, kInputMacs = 60;
 // Of the network that icount.json counts, cube7: 4 hidden neurons, 14 inputs and what makes them.
 constexpr double kCountedNetMacs = 4 * 15 + 14 + kInputMacs;
 constexpr double kPointMacs = 4 * 31 + 20;  // four edges, and the place of the point
+constexpr double kCubicMacs = 14;             // 12, and 2 for its weight
 
 /// What a method made of one pair.
 struct One {
@@ -98,7 +99,8 @@ double guess_macs(const urad::CheapestPair& pair) {
 
 double auto_multiply_adds(const urad::CheapestPair& pair, const urad_net* net) {
   const bool by_net = pair.way == urad::Way::network;
-  return (by_net ? net_macs(*net) : kMomentMacs) + kPointMacs * pair.point_sums + guess_macs(pair);
+  return (by_net ? net_macs(*net) : kMomentMacs) + kCubicMacs * pair.cubics +
+         kPointMacs * pair.point_sums + guess_macs(pair);
 }
 
 namespace {

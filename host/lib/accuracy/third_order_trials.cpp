@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
-#include "accuracy/error_training.hpp"
 #include "accuracy/lopsided_pairs.hpp"
 #include "accuracy/method_trials.hpp"
 #include "accuracy/trial_pairs.hpp"
@@ -24,11 +24,8 @@ namespace host {
 
 namespace {
 
-constexpr double kLeastSkew = 1e-4;
 constexpr double kWanted[] = {0.1, 0.03, 0.01, 0.003, 0.001};
 constexpr double kHolds = 0.99;
-constexpr int kGuessSteps = 8000;
-constexpr double kThirdMacs = 2 * 33;  // 12 for four components, 3 for a square, 18 for sums
 constexpr double kRho[] = {1e-4, 1e-3, 1e-2, 0.1, 0.35};  // of moments_do()
 
 struct Off {
@@ -43,20 +40,28 @@ Off off_of(const Polygon& p, const Polygon& q, double exact) {
   return {off(second), off(second + third)};
 }
 
-/// What the kernel of one pair is off by, and what auto does about it.
-struct Asked {
-  ErrorSample second, graded, third;  // graded: second, and how lopsided the two are
-  std::array<double, std::size(kWanted)> macs{};
+/// What auto makes of a pair at one error asked for.
+struct Found {
+  double macs = 0, macs_without_kernel = 0;
+  bool by_kernel = false, computed = false, holds = false;
 };
 
-float log2_off(double off) { return float(std::log2(std::clamp(off, 1e-6, 4.0))); }
+/// A pair, by the kernel without third moments and by auto.
+struct Asked {
+  double off = 0, said = 0;  // log2, of the kernel
+  std::array<Found, std::size(kWanted)> found{};
+};
 
-/// Of a triangle about 0.3, of a parallelogram 0.
-double skew(const Polygon& polygon) {
-  const Moments m = moments(polygon);
-  double sum = 0;
-  for (const double value : third_moments(polygon, m).value) sum += std::fabs(value);
-  return sum / std::pow(squared_size(m), 1.5);
+double log2_off(double off) { return std::log2(std::clamp(off, 1e-6, 4.0)); }
+
+/// The engine's constants, with a guess at the kernel that nobody accepts.
+const urad::ErrorModels& without_kernel() {
+  static const urad::ErrorModels models = [] {
+    urad::ErrorModels never = urad::error_models();
+    for (std::int16_t& shift : never.kernel.shift_q8) shift = INT16_MAX;
+    return never;
+  }();
+  return models;
 }
 
 /// Nothing for pairs that are cut or symmetric, or of which moments say nothing.
@@ -64,25 +69,27 @@ std::optional<Asked> ask(const PolygonPair& pair, double exact, const urad_net* 
   const FixedScene fixed = FixedScene::of_polygons({pair.p, pair.q}, {});
   const urad_scene& scene = fixed.pod();
   const urad::Patch i = urad::patch_at(scene, 0), j = urad::patch_at(scene, 1);
+  const auto off = [&](std::int32_t log2_g_q24) {
+    const double f = std::exp2((log2_g_q24 - i.shape->log2_area_q24) * 0x1p-24);
+    return log2_off(std::fabs(f / exact - 1));
+  };
   urad::PairTraits traits;
   std::int32_t log2_g_q24 = 0;
   if (!urad::exchange_by(scene, i, j, urad::Way::kernel, nullptr, &log2_g_q24, &traits) ||
       traits.pair_class != urad::PairClass::lopsided || !urad::moments_do(traits))
     return std::nullopt;
-  Asked asked;
-  for (std::size_t t = 0; t < urad::kPairTraits; ++t)
-    asked.second.trait[t] = asked.third.trait[t] = float(traits.log2_q8[t]) / 256;
-  const Off off = off_of(pair.p, pair.q, exact);
-  asked.second.error = log2_off(off.second), asked.third.error = log2_off(off.third);
-  asked.graded = asked.second;
-  asked.graded.trait[urad::trait_shapes] = asked.third.trait[urad::trait_shapes] =
-      float(std::log2(skew(pair.p) + skew(pair.q) + kLeastSkew));
+  Asked asked{off(log2_g_q24), urad::error_q8(urad::error_models().kernel, traits) / 256.0, {}};
   for (std::size_t w = 0; w < std::size(kWanted); ++w) {
     urad_counters counters{};
-    asked.macs[w] = auto_multiply_adds(
-        urad::cheapest_exchange(scene, i, j, net,
-                                std::int16_t(std::floor(256 * std::log2(kWanted[w]))), &counters),
-        net);
+    const auto by = [&](const urad::ErrorModels& models) {
+      return urad::cheapest_exchange(models, scene, i, j, net,
+                                     std::int16_t(std::floor(256 * std::log2(kWanted[w]))),
+                                     &counters);
+    };
+    const urad::CheapestPair found = by(urad::error_models());
+    asked.found[w] = {auto_multiply_adds(found, net), auto_multiply_adds(by(without_kernel()), net),
+                      found.way == urad::Way::kernel, found.cubics > 0,
+                      off(found.log2_exchange_q24) <= found.log2_error_q8 / 256.0};
   }
   return asked;
 }
@@ -91,9 +98,9 @@ std::vector<Asked> asked_of(const std::vector<PolygonPair>& pairs, const std::ve
                             const urad_net* net, int threads) {
   std::vector<std::optional<Asked>> all(pairs.size());
   parallel_for(pairs.size(), threads, [&](std::size_t k) {
-    const double g = exact.empty() ? reference_exchange(pairs[k].p, pairs[k].q)
-                                   : exact[k] * moments(pairs[k].p).area;
-    all[k] = ask(pairs[k], g, net);
+    const Polygon &p = pairs[k].p, &q = pairs[k].q;
+    all[k] =
+        ask(pairs[k], exact.empty() ? reference_exchange(p, q) / moments(p).area : exact[k], net);
   });
   std::vector<Asked> asked;
   for (const auto& one : all)
@@ -127,52 +134,21 @@ std::vector<Asked> asked_of_scene(const char* name, std::uint64_t seed, std::siz
   return asked_of(pairs, {}, net, threads);
 }
 
-/// A guess at the error that holds for 99 % of other pairs.
-class Guess {
- public:
-  Guess(const std::vector<Asked>& fit, const std::vector<Asked>& others, ErrorSample Asked::*kernel,
-        std::uint64_t seed)
-      : kernel_(kernel) {
-    std::vector<ErrorSample> samples;
-    samples.reserve(fit.size());
-    for (const Asked& one : fit) samples.push_back(one.*kernel);
-    model_ = train_error_model(samples, urad::kPairTraits, kHolds, seed, kGuessSteps);
-    std::vector<double> off;
-    off.reserve(others.size());
-    for (const Asked& one : others) off.push_back(double((one.*kernel).error) - at(one));
-    shift_ = quantile(off, kHolds);
-  }
-  bool below(const Asked& one, double error) const { return at(one) <= std::log2(error); }
-  bool holds(const Asked& one, double error) const {
-    return double((one.*kernel_).error) <= std::log2(error);
-  }
-
- private:
-  double at(const Asked& one) const {
-    urad::PairTraits traits{};
-    for (std::size_t t = 0; t < urad::kPairTraits; ++t)
-      traits.log2_q8[t] = std::int16_t(std::lround(256 * (one.*kernel_).trait[t]));
-    return urad::error_q8(model_, traits) / 256.0 + shift_;
-  }
-  ErrorSample Asked::*kernel_;
-  urad::ErrorModel model_{};
-  double shift_ = 0;
-};
-
-void judge(const std::string& family, const std::vector<Asked>& pairs, const Guess& two,
-           const Guess& graded, const Guess& three, std::vector<ThirdOrderCost>* rows) {
-  const double kernel = auto_multiply_adds({0, 0, urad::Way::kernel, 0}, nullptr) + kThirdMacs;
+void judge(const std::string& family, const std::vector<Asked>& pairs, double moved,
+           std::vector<ThirdOrderCost>* rows) {
+  const double kernel = auto_multiply_adds({0, 0, urad::Way::kernel, 0, 0}, nullptr);
   for (std::size_t w = 0; w < std::size(kWanted); ++w) {
     ThirdOrderCost row{family, kWanted[w]};
     for (const Asked& one : pairs) {
       const double share = 1 / double(pairs.size());
-      const bool by_two = two.below(one, row.error), by_three = three.below(one, row.error);
-      row.two += by_two * share, row.three += by_three * share;
-      row.held2 += (by_two && two.holds(one, row.error)) * share;
-      row.held3 += (by_three && three.holds(one, row.error)) * share;
-      row.macs2 += one.macs[w] * share;
-      row.macs_graded += (graded.below(one, row.error) ? kernel - kThirdMacs : one.macs[w]) * share;
-      row.macs3 += (by_three ? kernel : one.macs[w] + kThirdMacs) * share;
+      const Found& found = one.found[w];
+      const bool by_two = one.said + moved <= std::log2(row.error);
+      row.two += by_two * share, row.three += found.by_kernel * share;
+      row.computed += found.computed * share;
+      row.held2 += (by_two && one.off <= one.said + moved) * share;
+      row.held3 += (found.by_kernel && found.holds) * share;
+      row.macs2 += (by_two ? kernel : found.macs_without_kernel) * share;
+      row.macs3 += found.macs * share;
     }
     if (row.two > 0) row.held2 /= row.two;
     if (row.three > 0) row.held3 /= row.three;
@@ -184,40 +160,36 @@ void judge(const std::string& family, const std::vector<Asked>& pairs, const Gue
 
 std::vector<ThirdOrderCost> try_third_moments_in_auto(std::uint64_t seed, std::size_t pairs,
                                                       const urad_net* net, int threads) {
-  std::vector<Asked> fit, others;
   std::uint64_t stream = 256 * seed;
+  std::vector<double> unsaid;
   for (const PatchKind& kind : kPatchKinds)
-    for (std::vector<Asked>* set : {&fit, &others}) {
-      const std::vector<Asked> more = asked_of(kind, ++stream, pairs, net, threads);
-      set->insert(set->end(), more.begin(), more.end());
-    }
-  const Guess two(fit, others, &Asked::second, seed), graded(fit, others, &Asked::graded, seed),
-      three(fit, others, &Asked::third, seed);
+    for (const Asked& one : asked_of(kind, ++stream, pairs, net, threads))
+      unsaid.push_back(one.off - one.said);
+  const double moved = quantile(unsaid, kHolds);
   std::vector<ThirdOrderCost> rows;
   for (const PatchKind& kind : kPatchKinds)
     if (!kind.symmetric)
-      judge(kind.name, asked_of(kind, ++stream, pairs, net, threads), two, graded, three, &rows);
+      judge(kind.name, asked_of(kind, ++stream, pairs, net, threads), moved, &rows);
   for (const TrialFamily& family : trial_families()) {
     const PairSet set = trial_pairs(family, TrialUse::test, seed, pairs, threads);
     const std::vector<Asked> asked = asked_of(set.pairs, set.exact, net, threads);
-    if (8 * asked.size() > pairs) judge(family.name, asked, two, graded, three, &rows);
+    if (8 * asked.size() > pairs) judge(family.name, asked, moved, &rows);
   }
-  judge("the Cornell box", asked_of_scene("cornell", ++stream, pairs, net, threads), two, graded,
-        three, &rows);
+  judge("the Cornell box", asked_of_scene("cornell", ++stream, pairs, net, threads), moved, &rows);
   return rows;
 }
 
 std::string third_order_table(const std::vector<ThirdOrderCost>& rows) {
   std::string text =
-      "| pairs | error asked for | by the kernel, two moments | three | of these within it | three "
-      "| "
-      "multiply-adds | told how lopsided | with three, told |\n| --- | ---: | ---: | ---: | ---: | "
-      "---: | ---: | ---: | ---: |\n";
+      "| pairs | error asked for | by the kernel, two moments | three | third moments computed | "
+      "guesses hold, two | three | multiply-adds, two | three | saved |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (const ThirdOrderCost& row : rows)
     text += fmt::format(
-        "| {} | {:g} | {:.1f} % | {:.1f} % | {:.1f} % | {:.1f} % | {:.0f} | {:.0f} | {:.0f} |\n",
-        row.family, row.error, 100 * row.two, 100 * row.three, 100 * row.held2, 100 * row.held3,
-        row.macs2, row.macs_graded, row.macs3);
+        "| {} | {:g} | {:.1f} % | {:.1f} % | {:.1f} % | {:.1f} % | {:.1f} % | {:.0f} | {:.0f} | "
+        "{:.1f} % |\n",
+        row.family, row.error, 100 * row.two, 100 * row.three, 100 * row.computed, 100 * row.held2,
+        100 * row.held3, row.macs2, row.macs3, 100 * (1 - row.macs3 / row.macs2));
   return text;
 }
 

@@ -20,18 +20,19 @@ struct ThirdOrderRow {
 /// Two parallelograms, convex quads, concave quads, triangles; rho from 1e-4 to 0.35.
 std::vector<ThirdOrderRow> try_third_moments(std::uint64_t seed, std::size_t pairs, int threads);
 
-/// What auto would save with third moments: pairs that are not cut and for which moments say
-/// something, at one error asked for.
+/// What auto saves by third moments: pairs that are not cut and for which moments say something, at
+/// one error asked for.
 struct ThirdOrderCost {
   std::string family;
-  double error = 0;             ///< asked for
-  double two = 0, three = 0;    ///< share of pairs that a guess at the kernel's error lets pass
-  double held2 = 0, held3 = 0;  ///< share of those within it
-  double macs2 = 0, macs_graded = 0, macs3 = 0;  ///< multiply-adds a pair
+  double error = 0;           ///< asked for
+  double two = 0, three = 0;  ///< share of pairs by the kernel, without third moments and with them
+  double computed = 0;        ///< share of pairs for which they are
+  double held2 = 0, held3 = 0;  ///< share of those by the kernel within what was said
+  double macs2 = 0, macs3 = 0;  ///< multiply-adds a pair
 };
 
-/// Guesses are fitted to each kernel alike, on pairs of their own, moved until they hold for 99 % of
-/// others, and judged on yet others.
+/// Auto as it is, and the same with a kernel that has no third moments, whose guess is moved until
+/// it holds for 99 % of pairs of its own.
 std::vector<ThirdOrderCost> try_third_moments_in_auto(std::uint64_t seed, std::size_t pairs,
                                                       const urad_net* net, int threads);
 
