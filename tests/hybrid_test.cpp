@@ -249,3 +249,30 @@ TEST_CASE("bad arguments are refused") {
 }
 
 }  // namespace
+
+TEST_CASE("far pairs are never scaled beyond 4, and none beyond the whole") {
+  const auto facing = [](double side, double x, double height) {
+    const double low = x - side / 2, high = x + side / 2, half = side / 2;
+    return host::FixedScene::of_polygons(
+        {{{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}}, {}},
+         {{{low, -half, height}, {low, half, height}, {high, half, height}, {high, -half, height}},
+          {}}},
+        {});
+  };
+  // As if far: over its extent a square sees a fifth of what its centre sees of one as near as this.
+  {
+    const host::FixedScene scene = facing(1, 0, 0.2);
+    Sources sources(scene.pod(), 32, 16u << 16, urad::hemicube_turned | urad::hemicube_coverage);
+    const std::uint32_t seen = sources.hemicube_row(0)[1], hybrid = sources.hybrid_row(0)[1];
+    CHECK(hybrid < 0.99 * seen);
+    CHECK(hybrid > 0.8 * seen);
+  }
+  // One that is almost all it sees, and more over its extent than from its centre.
+  {
+    const host::FixedScene scene = facing(4, 1, 0.01);
+    Sources sources(scene.pod(), 32, 0xFFFFFFFFu, urad::hemicube_turned | urad::hemicube_coverage);
+    const std::uint32_t seen = sources.hemicube_row(0)[1], hybrid = sources.hybrid_row(0)[1];
+    CHECK(seen > 0xFE000000u);
+    CHECK(std::fabs(double(hybrid) - seen) < 16);
+  }
+}

@@ -404,3 +404,32 @@ TEST_CASE("the outline of a grid in any direction, and the box around it") {
   CHECK(blocker.first_vertex == 1);
   CHECK(blocker.surface == 7);
 }
+
+TEST_CASE("light of one channel alone moves with what stands in it, on bent surfaces too") {
+  for (int channel = 0; channel < 3; ++channel) {
+    Room room({-0.3, 0.2, 0.1}), there({0.35, -0.3, 0.7});
+    for (Room* one : {&room, &there}) {
+      for (int c = 0; c < 3; ++c)
+        if (c != channel) one->material[3].exitance[c] = 0;
+      one->surface[2].flags = 0;  // as if its patches might see each other: they do not
+    }
+    Light light(room), fresh(there);
+    light.solve(1e-3);
+    fresh.solve(1e-3);
+    urad_move move{kWalls, kBox, 2, 0, {room.box(), there.box()}, 0, 0};
+    REQUIRE(urad_radiosity_move_begin(&light.state, &move) == URAD_OK);
+    room.put({0.35, -0.3, 0.7});
+    REQUIRE(urad_radiosity_move_end(&light.state, &move, nullptr, nullptr) == URAD_OK);
+    light.solve(1e-3);
+    CHECK(urad::radiosity_audit(light.state, nullptr));
+    for (int c = 0; c < 3; ++c) {
+      double moved = 0, anew = 0;
+      for (std::uint16_t k = 0; k < kWalls + kBox; ++k) {
+        moved += urad::radiosity_get(light.state, k, c);
+        anew += urad::radiosity_get(fresh.state, k, c);
+      }
+      CHECK((anew > 0) == (c == channel));
+      CHECK(moved == doctest::Approx(anew).epsilon(0.01));
+    }
+  }
+}

@@ -13,7 +13,7 @@ struct Frame {
 
   urad_point place(const urad_point& x) const noexcept {
     const urad_point d = x - origin;
-    const auto scaled = [=](int32_t a) {
+    const auto scaled = [this](int32_t a) {
       return up >= 0 ? a * (int32_t{1} << up) : round_shift(a, -up);
     };
     return {scaled(d.x), scaled(d.y), scaled(d.z)};

@@ -22,9 +22,8 @@ int64_t edge_term_q30(const urad_point& a, const urad_point& b, const urad_point
   const auto cosine_q30 =
       int32_t(round_shift(int64_t(wide_umul(magnitude(rise), root.mantissa_uq30)), root.half));
   const auto length = int64_t(wide_umul(uint32_t(c2 >> 30), root.mantissa_uq30) >> root.half);
-  const int64_t across = c.exponent >= 0    ? length * (int64_t{1} << c.exponent)
-                         : c.exponent > -32 ? round_shift(length, -c.exponent)
-                                            : 0;
+  const int64_t across = c.exponent >= 0 ? length * (int64_t{1} << c.exponent)
+                                         : round_shift(length, -c.exponent);  // by 29 at most
   const int64_t term_q30 = round_shift(wide_mul(cosine_q30, angle_q29(dot(a, b), across)), 29);
   return rise < 0 ? -term_q30 : term_q30;
 }

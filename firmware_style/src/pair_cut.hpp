@@ -1,5 +1,6 @@
 // pair_cut.hpp -- two patches, each cut to the other's front half-space, and their kernel terms.
 #pragma once
+#include "least.hpp"
 #include "urad/clip.hpp"
 #include "urad/pair.hpp"
 
@@ -22,8 +23,6 @@ inline bool cut_to_front(const urad_scene& scene, const Patch& patch, const Patc
   return side == Side::front ||
          clipped_shape(scene, patch, plane.on, plane.normal_q30, &cut->shape, &cut->centroid);
 }
-
-inline int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 
 /// The parts of two patches in front of each other. Shapes live as long as the kernel terms that
 /// point to them.

@@ -1,5 +1,6 @@
 // visibility_block.hpp -- one ray against one blocker, and what tells beforehand that it misses.
 #pragma once
+#include "least.hpp"
 #include "urad/scene.h"
 
 namespace urad {
@@ -7,7 +8,6 @@ namespace urad {
 /// Scene units by which a ray may miss a blocker and still be stopped.
 inline constexpr int32_t kOutline = 2;
 
-constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a < b ? b : a; }
 
 /// Makes the box of *low and *high hold that of `from` and `to`.

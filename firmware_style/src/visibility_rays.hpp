@@ -51,8 +51,7 @@ class Sums {
   uint32_t fraction_uq16() const noexcept {
     const uint64_t lesser = open_ < shut_ ? open_ : shut_, all = open_ + shut_;
     const int64_t part_uq24 = all ? ratio_q(int64_t(lesser), int64_t(all), 24) : 0;
-    const uint32_t part_uq16 =
-        part_uq24 < 1 << 24 ? uint32_t(round_shift(part_uq24, 8)) : kAllVisible_uq16;
+    const uint32_t part_uq16 = uint32_t(round_shift(part_uq24, 8));  // a half at most
     const uint32_t f_uq16 = open_ < shut_ ? part_uq16 : kAllVisible_uq16 - part_uq16;
     return f_uq16 < 1 ? 1 : f_uq16 >= kAllVisible_uq16 ? kAllVisible_uq16 - 1 : f_uq16;
   }
