@@ -80,16 +80,19 @@ class Search {
     shapes = 0;
     const bool good = guess(models_.kernel);
     shapes = lopsided;
-    if (!good) return false;
+    if (good) third_moments();
+    return good;
+  }
+
+  void third_moments() noexcept {
     const int32_t third_q8 = most_third_q8(traits_);
-    if (third_q8 > wanted_q8_) {
-      const ThirdOrder third = third_order(scene_, i_, j_, kernel_);
-      kernel_.log2_bend_q24 = log2_bend_q24(kernel_, third.t3_q22);
-      cubics_ = third.cubics;
-    } else {
+    if (third_q8 <= wanted_q8_) {
       guess_q8_ = greatest(guess_q8_, third_q8);
+      return;
     }
-    return true;
+    const ThirdOrder third = third_order(scene_, i_, j_, kernel_);
+    kernel_.log2_bend_q24 = log2_bend_q24(kernel_, third.t3_q22);
+    cubics_ = third.cubics;
   }
 
   /// The guess, or what rounding leaves open where that is more.
@@ -188,6 +191,7 @@ bool exchange_by(const urad_scene& scene, const Patch& i, const Patch& j, Way wa
   int32_t limit_q24 = 0;
   bool cut = false;
   if (!clipped_kernel(scene, i, j, &cuts, &kernel, &limit_q24, &cut)) return false;
+  *traits = {};
   fill_traits(scene, i, j, cuts, kernel, traits);
   int32_t log2_g_q24 = least(by_kernel_q24(kernel), limit_q24);
   if (way == Way::network) {

@@ -76,7 +76,6 @@ inline void fill_traits(const urad_scene& scene, const Patch& i, const Patch& j,
   t[trait_facing] = int16_t(-round_shift(dot(i.shape->normal_q30, j.shape->normal_q30), 50));
   t[trait_shapes] = int16_t(lopsided * 256);
   t[trait_cut] = int16_t((cut_receiver ? 4 * 256 : 0) + (cut_carrier ? 8 * 256 : 0));
-  for (int k = kPairTraits; k < kTraits; ++k) t[k] = 0;
   traits->pair_class = cut_carrier || cut_receiver       ? PairClass::cut
                        : kernel.rho_uq16 > kNearRho_uq16 ? PairClass::near
                        : lopsided == 0                   ? PairClass::symmetric

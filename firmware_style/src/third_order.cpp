@@ -151,8 +151,9 @@ ThirdOrder third_of(const urad_scene& scene, const Patch& patch, const View& vie
   const auto cubics = uint16_t(patch.vertex_count * (is_triangle ? 1 : 2));
   if (area <= 0) return {0, cubics};
   // 2^14 of P's own units, 4 and 2 from its two terms; m.w is negative on either side.
-  const int64_t log2_scale_q24 = 3 * (int64_t{corners.down()} * (1 << 24) - log2_distance_q24) -
-                                 log2_15_q24 - log2_q24(uint64_t(area)) + (int64_t{14} << 24);
+  const int64_t log2_unit_q24 = int64_t{corners.down()} * (1 << 24) - log2_distance_q24;
+  const int64_t log2_scale_q24 =
+      3 * log2_unit_q24 - log2_15_q24 - log2_q24(uint64_t(area)) + (14 << 24);
   return {term_q22(sum.along, log2_scale_q24 + (2 << 24)) +
               term_q22(sum.across, log2_scale_q24 + (1 << 24) - side.log2_cosine_other_q24),
           cubics};
