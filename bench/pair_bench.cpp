@@ -15,6 +15,7 @@
 #include "form_factor/lambert.hpp"
 #include "form_factor/reference.hpp"
 #include "method/engine_source.hpp"
+#include "urad/cheapest.hpp"
 #include "urad/form_factor.hpp"
 #include "urad/hemicube_table.hpp"
 #include "urad/legacy.hpp"
@@ -95,6 +96,26 @@ class InEngine {
  private:
   urad::Kernel kernel_;
   const urad_net* net_;
+  urad_counters counters_{};
+};
+
+/// The cheapest way that is accurate enough, with the shipped general network.
+class Auto {
+ public:
+  explicit Auto(const std::string& method)
+      : log2_error_q8_(host::auto_error_q8(host::parse_method(method))) {}
+
+  double operator()(const Pair& pair) {
+    const urad_scene& scene = pair.scene->pod();
+    const urad::Patch i = urad::patch_at(scene, pair.i), j = urad::patch_at(scene, pair.j);
+    const urad::CheapestPair found =
+        urad::cheapest_exchange(scene, i, j, net_, log2_error_q8_, &counters_);
+    return urad::form_factor_uq32(found.log2_exchange_q24, i.shape->log2_area_q24) * 0x1p-32;
+  }
+
+ private:
+  std::int16_t log2_error_q8_;
+  const urad_net* net_ = &fixtures::nets().find("general");
   urad_counters counters_{};
 };
 
@@ -237,6 +258,8 @@ const bool added = [] {
             InEngine(urad::Kernel::moment, &fixtures::nets().find("general")));
     add_row(set, "net:cube7", "net",
             InEngine(urad::Kernel::moment, &fixtures::nets().find("cube7")));
+    for (const char* method : {"auto:0.1", "auto", "auto:0.001"})
+      add_row(set, method, method, Auto(method));
     if (set == "cube") {
       add_shared_hemicube<32>("hemicube:32");
       add_shared_hemicube<64>("hemicube:64");
