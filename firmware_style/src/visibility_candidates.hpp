@@ -51,7 +51,7 @@ class Candidates {
  public:
   Candidates(RunBlockers& run, const Patch& receiver) noexcept;
 
-  bool empty() const noexcept { return count_ == 0 && rest_ == blocker_count_; }
+  bool empty() const noexcept { return count_ == 0; }  // others wait for a full list only
   bool shut() const noexcept { return shut_; }
   void count(urad_counters* counters) const noexcept;
 
