@@ -405,6 +405,29 @@ TEST_CASE("the outline of a grid in any direction, and the box around it") {
   CHECK(blocker.surface == 7);
 }
 
+TEST_CASE("of a source that is not reciprocal no patch gets more than twice what was shot") {
+  for (const std::int32_t shot : {INT32_MAX, -INT32_MAX}) {
+    Room room({0, 0, 0});
+    Light light(room);
+    light.solve(0.1);
+    for (std::uint32_t k = 0; k < 3 * (kWalls + kBox); ++k) light.state.shot[k] = 0;
+    light.state.shot[3 * kWalls] = shot;  // of a patch of the box, a quarter of one of the walls
+    light.state.source = {[](void*, std::uint16_t, std::uint16_t, std::uint16_t first,
+                             std::uint16_t count, std::uint32_t* f_uq32) {
+                            for (std::uint16_t k = 0; k < count; ++k)
+                              f_uq32[k] = first + k == kWalls ? ~0u : 0;
+                            return URAD_OK;
+                          },
+                          nullptr};
+    // All of it to every wall patch: 2^33, held to 2^32.
+    urad_move move{kWalls, kBox, 0, 0, {}, 0, 0};
+    const urad_status status = urad_radiosity_move_begin(&light.state, &move);
+    CHECK((status == URAD_OK || status == URAD_OVERFLOW));
+    CHECK(move.made > 0);
+    CHECK(urad::radiosity_audit(light.state, nullptr));
+  }
+}
+
 TEST_CASE("light of one channel alone moves with what stands in it, on bent surfaces too") {
   for (int channel = 0; channel < 3; ++channel) {
     Room room({-0.3, 0.2, 0.1}), there({0.35, -0.3, 0.7});
