@@ -27,7 +27,7 @@ struct Quads {
       : polygon(sides.size()), surface(first.size() - 1) {
     for (std::size_t k = 0; k < sides.size(); ++k) {
       urad_grid grid{};
-      const auto& [origin, u, v] = sides[k];
+      const urad_point &origin = sides[k].origin, &u = sides[k].u, &v = sides[k].v;
       REQUIRE(urad::grid_make(origin, u, v, 1, 1, &grid) == urad::Status::ok);
       const auto at = [&](int a, int b) {
         return urad_point{origin.x + a * u.x + b * v.x, origin.y + a * u.y + b * v.y,
