@@ -74,6 +74,8 @@ TEST_CASE("a cut that leaves a sliver of 1 : 4,096 is as thin as a shape can say
   REQUIRE(cut.left);
   CHECK(cut.area() == doctest::Approx(0x1p28).epsilon(1e-5));
   CHECK(cut.shape.fill_uq15 == 21);  // 2^15 / (1 + 12 128)
+  // Of one 64 times as thin the second moments are below their last bit: it is nothing.
+  CHECK_FALSE(CutOutline({{-1000, 0, 0}, {1 << 20, 0, 0}, {1 << 20, 4, 0}, {-1000, 4, 0}}).left);
 }
 
 TEST_CASE("loops that cross themselves leave nothing rather than an area below 0") {
