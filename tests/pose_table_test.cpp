@@ -280,8 +280,6 @@ TEST_CASE("exported tables compile as C99 and C++17 and hold the same integers")
                              std::filesystem::copy_options::overwrite_existing);
 #ifdef URAD_SANITIZED
   const std::string as_the_archive = " -fsanitize=address,undefined";
-#elif defined(URAD_COUNTED)
-  const std::string as_the_archive = " --coverage";
 #else
   const std::string as_the_archive;
 #endif
