@@ -149,3 +149,16 @@ TEST_CASE("rays that disagree, and of which parts of the pair make none, end in 
   CHECK(none > 0);
   CHECK(none < 60);
 }
+
+TEST_CASE(
+    "of a loop that crosses itself nothing is exchanged where its front part is seen from behind") {
+  Quads quads(
+      {{{-900, -500, 0}, {1800, 0, 0}, {0, 1000, 0}}, {{0, -500, 0}, {0, 1000, 0}, {0, 0, 1000}}},
+      {0, 1, 2}, URAD_SURFACE_PLANAR);
+  CHECK(cheapest(quads, 0, 1).way != urad::Way::none);
+  const std::vector<urad_point> loop(quads.vertex.begin(), quads.vertex.begin() + 4);
+  const std::array<std::size_t, 4> order{3, 0, 2, 1};
+  for (std::size_t k = 0; k < 4; ++k) quads.vertex[k] = loop[order[k]];
+  CHECK(cheapest(quads, 0, 1).way == urad::Way::none);
+  CHECK(cheapest(quads, 0, 1).log2_error_q8 == 0);  // all of it
+}
