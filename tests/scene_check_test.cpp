@@ -42,7 +42,7 @@ struct Plain {
     polygon[0].first_vertex = polygon[1].first_vertex = 3;
     blocker.first_vertex = 0;
     blocker.surface = 0xFFFF;
-    vertex[6] = vertex[5];
+    vertex[6] = vertex[3];  // the same loop from its second vertex
     surface[0] = {0, 1, 0, URAD_SURFACE_PLANAR, &grid, nullptr};
     surface[1] = {1, 2, 0, URAD_SURFACE_PLANAR, nullptr, polygon};
     bounds = {blocker.low, blocker.high, 0, 1, 1, 0};
@@ -121,6 +121,18 @@ TEST_CASE("a scene with any one field out of range is refused") {
       {"fill", [](Plain& p) { p.grid.shape.fill_uq15 = 32769; }},
       {"shape of a polygon", [](Plain& p) { p.polygon[1].shape.fill_uq15 = 32769; }},
       {"centroid", [](Plain& p) { p.polygon[1].centroid.x = kFar; }},
+      {"centroid above its vertices", [](Plain& p) { p.polygon[1].centroid.z += 2; }},
+      {"centroid below its vertices", [](Plain& p) { p.polygon[1].centroid.z -= 2; }},
+      {"centroid beside its vertices, x",
+       [](Plain& p) {
+         for (urad_point& vertex : p.vertex) vertex.x = 5;
+         p.polygon[0].centroid.x = p.polygon[1].centroid.x = 7;
+       }},
+      {"centroid beside its vertices, y",
+       [](Plain& p) {
+         for (urad_point& vertex : p.vertex) vertex.y = 5;
+         p.polygon[0].centroid.y = p.polygon[1].centroid.y = 3;
+       }},
       {"polygons and no vertex",
        [](Plain& p) { p.scene.vertex = nullptr, p.scene.vertex_count = 0; }},
       {"two vertices", [](Plain& p) { p.polygon[1].vertex_count = 2; }},
@@ -177,6 +189,8 @@ TEST_CASE("what the check need not look at may be absent, and an end of a range 
       {"greatest exitance", [](Plain& p) { p.material.exitance[0] = kOne; }},
       {"reflectance 1", [](Plain& p) { p.material.reflectance_uq15[1] = 32768; }},
       {"a vertex at the limit", [](Plain& p) { p.vertex[6].y = -URAD_COORDINATE_MAX; }},
+      {"a centroid a unit above its vertices", [](Plain& p) { p.polygon[1].centroid.z += 1; }},
+      {"a centroid a unit below its vertices", [](Plain& p) { p.polygon[1].centroid.z -= 1; }},
       {"a loop to the end of the table", [](Plain& p) { p.polygon[1].first_vertex = 4; }},
       {"the last surface", [](Plain& p) { p.blocker.surface = 1; }}};
   for (const Wrong& case_ : fine) {

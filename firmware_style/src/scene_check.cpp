@@ -63,6 +63,22 @@ bool loop_in_table(const urad_scene& scene, uint32_t first, uint16_t count) noex
          first < scene.vertex_count && count <= scene.vertex_count - first;
 }
 
+/// A mean lies between what it is the mean of, and by a unit past it where both are rounded: frames
+/// of exact sums are made to hold the vertices, and hold the centroid by this.
+bool between_vertices(const urad_scene& scene, const urad_polygon& polygon) noexcept {
+  const auto between = [&](int32_t urad_point::*axis) {
+    const int32_t mean = polygon.centroid.*axis;
+    bool low = false, high = false;
+    for (uint16_t k = 0; k < polygon.vertex_count; ++k) {
+      const int32_t x = scene.vertex[polygon.first_vertex + k].*axis;
+      low = low || x <= mean + 1;
+      high = high || x >= mean - 1;
+    }
+    return low && high;
+  };
+  return between(&urad_point::x) && between(&urad_point::y) && between(&urad_point::z);
+}
+
 /// Looked at before any patch: lists are only read when their lengths add up.
 bool counts_add_up(const urad_scene& scene) noexcept {
   uint32_t patches = 0;
@@ -82,6 +98,7 @@ bool good(const urad_scene& scene, const urad_surface& surface) noexcept {
     const urad_polygon& polygon = surface.polygon[k];
     if (!good(polygon.shape) || !inside(polygon.centroid)) return false;
     if (!loop_in_table(scene, polygon.first_vertex, polygon.vertex_count)) return false;
+    if (!between_vertices(scene, polygon)) return false;
   }
   return true;
 }

@@ -30,8 +30,8 @@ void patch_advance(Patch* patch) noexcept;
 urad_point patch_vertex(const urad_scene& scene, const Patch& patch, uint16_t k) noexcept;
 
 /// Walks every table once: counts, ranges, null pointers, coordinates within URAD_COORDINATE_MAX,
-/// unit normals, materials that exist, reflectance <= 1. Call it once on data that is not trusted;
-/// the rest of the engine does not check.
+/// centroids between their vertices, unit normals, materials that exist, reflectance <= 1. Call it
+/// once on data that is not trusted; the rest of the engine does not check.
 Status scene_check(const urad_scene* scene) noexcept;
 
 /// CRC-32 of the fields of a scene, and of the tables they count; pointers are left out.

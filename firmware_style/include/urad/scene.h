@@ -37,7 +37,7 @@ typedef struct urad_grid {
 /* One patch of a polygon list: a loop in scene.vertex, holes bridged into it, counter-clockwise from the lit side. */
 typedef struct urad_polygon {
   urad_shape shape;
-  urad_point centroid;
+  urad_point centroid;   /* within the box of its vertices, or a unit beside it */
   uint32_t first_vertex;
   uint16_t vertex_count; /* 3 .. URAD_POLYGON_MAX_VERTICES */
   uint16_t reserved;     /* 0 */
