@@ -63,6 +63,14 @@ struct Plain {
   Plain(const Plain&) = delete;
 };
 
+/// All vertices at 5 along an axis, and the centroids of both polygons so far from there. Of
+/// polygons alone: the box of the blocker is not made to fit.
+void set_apart(Plain& p, std::int32_t urad_point::*axis, std::int32_t distance) {
+  p.scene.bounds_count = 0;
+  for (urad_point& vertex : p.vertex) vertex.*axis = 5;
+  for (urad_polygon& polygon : p.polygon) polygon.centroid.*axis = 5 + distance;
+}
+
 struct Wrong {
   const char* what;
   std::function<void(Plain&)> make;
@@ -121,18 +129,10 @@ TEST_CASE("a scene with any one field out of range is refused") {
       {"fill", [](Plain& p) { p.grid.shape.fill_uq15 = 32769; }},
       {"shape of a polygon", [](Plain& p) { p.polygon[1].shape.fill_uq15 = 32769; }},
       {"centroid", [](Plain& p) { p.polygon[1].centroid.x = kFar; }},
-      {"centroid above its vertices", [](Plain& p) { p.polygon[1].centroid.z += 2; }},
-      {"centroid below its vertices", [](Plain& p) { p.polygon[1].centroid.z -= 2; }},
-      {"centroid beside its vertices, x",
-       [](Plain& p) {
-         for (urad_point& vertex : p.vertex) vertex.x = 5;
-         p.polygon[0].centroid.x = p.polygon[1].centroid.x = 7;
-       }},
-      {"centroid beside its vertices, y",
-       [](Plain& p) {
-         for (urad_point& vertex : p.vertex) vertex.y = 5;
-         p.polygon[0].centroid.y = p.polygon[1].centroid.y = 3;
-       }},
+      {"centroids beside their vertices, x", [](Plain& p) { set_apart(p, &urad_point::x, 2); }},
+      {"centroids beside their vertices, y", [](Plain& p) { set_apart(p, &urad_point::y, -2); }},
+      {"centroids above their vertices", [](Plain& p) { set_apart(p, &urad_point::z, 2); }},
+      {"centroids below their vertices", [](Plain& p) { set_apart(p, &urad_point::z, -2); }},
       {"polygons and no vertex",
        [](Plain& p) { p.scene.vertex = nullptr, p.scene.vertex_count = 0; }},
       {"two vertices", [](Plain& p) { p.polygon[1].vertex_count = 2; }},
@@ -189,8 +189,8 @@ TEST_CASE("what the check need not look at may be absent, and an end of a range 
       {"greatest exitance", [](Plain& p) { p.material.exitance[0] = kOne; }},
       {"reflectance 1", [](Plain& p) { p.material.reflectance_uq15[1] = 32768; }},
       {"a vertex at the limit", [](Plain& p) { p.vertex[6].y = -URAD_COORDINATE_MAX; }},
-      {"a centroid a unit above its vertices", [](Plain& p) { p.polygon[1].centroid.z += 1; }},
-      {"a centroid a unit below its vertices", [](Plain& p) { p.polygon[1].centroid.z -= 1; }},
+      {"centroids a unit above their vertices", [](Plain& p) { set_apart(p, &urad_point::z, 1); }},
+      {"centroids a unit below their vertices", [](Plain& p) { set_apart(p, &urad_point::z, -1); }},
       {"a loop to the end of the table", [](Plain& p) { p.polygon[1].first_vertex = 4; }},
       {"the last surface", [](Plain& p) { p.blocker.surface = 1; }}};
   for (const Wrong& case_ : fine) {
