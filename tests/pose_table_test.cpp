@@ -140,6 +140,23 @@ TEST_CASE("poses count in a room, and not where nothing faces anything") {
   CHECK(poses(outward_box()) == 0);
 }
 
+TEST_CASE("a pose seen or every pair for itself: the same bits") {
+  const host::Scene scene = host::load_scene("cube7");
+  const host::FixedScene fixed(scene);
+  const host::PoseTable table = host::make_pose_table(scene, fixed, 0);
+  urad_counters counters{};
+  const std::vector<std::uint32_t> seen = rows(fixed.pod(), table.pod(), &counters);
+  const Eigen::MatrixXd each = host::exact_form_factors(scene, 0, 64);
+  std::uint32_t evaluated = 0, different = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const auto i = Eigen::Index(k) / each.rows(), j = Eigen::Index(k) % each.rows();
+    evaluated += each(i, j) > 0;
+    different += std::llround(each(i, j) / kUnit) != static_cast<long long>(seen[k]);
+  }
+  CHECK(different == 0);
+  CHECK(evaluated == counters.poses);
+}
+
 TEST_CASE("two pairs share a factor only if it is theirs") {
   // Not the same as being right: values that agree by chance must not be taken for one pose.
   const host::Scene scene = host::load_scene("cube7");
