@@ -53,9 +53,12 @@ double fraction(const host::FixedScene& scene, bool reject) {
 
 TEST_CASE("forty blockers are more than a list holds, and none is forgotten") {
   std::vector<Polygon> blockers;
-  for (int k = 0; k < 40; ++k)
+  blockers.reserve(40);
+  for (int k = 0; k < 40; ++k) {
+    const int column = k % 7, row = k / 7;
     blockers.push_back(
-        square(0.1, 1.5 + 0.01 * k, true, {0.24 * (k % 7) - 0.72, 0.2 * (k / 7) - 0.5, 0}));
+        square(0.1, 1.5 + 0.01 * k, true, {0.24 * column - 0.72, 0.2 * row - 0.5, 0}));
+  }
   const host::FixedScene scene = between(blockers);
   const double seen = fraction(scene, true);
   CHECK(seen > 0.2);
