@@ -27,12 +27,19 @@ int32_t scale_q24(const urad_scene& scene, uint16_t patch) noexcept {
   return scene.log2_scale_q24 ? scene.log2_scale_q24[patch] : 0;
 }
 
-/// What a row may still leave out, kept from run to run.
+/// A matter of the scene, not of what skips are off: what is left out must not depend on those.
+bool casts_rays(const PairSource& source) noexcept {
+  const urad_scene& scene = *source.scene;
+  return source.rays && !(scene.flags & URAD_SCENE_CONVEX) && !visibility_of(scene);
+}
+
+/// What a row may still leave out, kept from run to run. Without rays nothing: a kernel costs less
+/// than to book every pair.
 class Allowance {
  public:
   Allowance(PairSource* source, const Patch& from, uint32_t first, uint32_t count) noexcept
       : source_(*source), log2_area_q24_(from.shape->log2_area_q24) {
-    if (source_.bound_uq32 == 0) return;
+    if (source_.bound_uq32 == 0 || !casts_rays(source_)) return;
     const bool goes_on = source_.lost_shooter == from.index && first >= source_.lost_next;
     if (!goes_on) source_.lost_uq32 = 0;
     source_.lost_shooter = from.index;

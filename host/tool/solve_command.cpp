@@ -164,8 +164,8 @@ void add_solve(CLI::App& app, const Common& common) {
       ->capture_default_str();
   command
       ->add_option("--bound", options->engine.bound,
-                   "Pair methods: leave out small factors as long as no row loses more than this; "
-                   "0: none")
+                   "Pair methods with rays: leave out small factors as long as no row loses more "
+                   "than this; 0: none")
       ->check(between(0.0, 0.5));
   command
       ->add_option("--pair-rays", options->engine.rays,

@@ -92,11 +92,12 @@ struct PairSource {
   uint8_t depth = 0;
   uint16_t last_blocker = 0;  ///< that stopped a ray: the first to be asked about the next
 
-  /// Bounded contribution, the one skip that changes light: factors of at most 8 bound /
-  /// patch_count are taken as 0 before network and rays, as long as those of the row together (each
-  /// as twice its kernel) stay within `bound`, UQ0.32. All B together, weighted by area, then lose
-  /// at most bound rho / (1 - rho) of themselves, rho the largest reflectance. A row is to be asked
-  /// for in order, in runs of any length. 0: none.
+  /// Bounded contribution, the one skip that changes light: where pairs are asked for rays, factors
+  /// of at most 8 bound / patch_count are taken as 0 before network and rays, as long as those of
+  /// the row together (each as twice its kernel) stay within `bound`, UQ0.32. All B together,
+  /// weighted by area, then lose at most bound rho / (1 - rho) of themselves, rho the largest
+  /// reflectance. A row is to be asked for in order, in runs of any length. Convex scenes, exported
+  /// visibility and rays == 0 leave nothing out: they would pay more than they save. 0: none.
   uint32_t bound_uq32 = 0;
   uint32_t lost_uq32 = 0;                    ///< of the row being filled
   uint32_t lost_shooter = 0, lost_next = 0;  ///< whose row, and the patch it has come to

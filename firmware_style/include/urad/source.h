@@ -23,7 +23,7 @@ typedef struct urad_counters {
   uint32_t faces_empty;         /* hemicube faces nothing touched */
   uint32_t cells;               /* hemicube cells written or summed */
   uint32_t skipped_behind;      /* of skipped_facing: found with one look at a whole surface */
-  uint32_t skipped_small;       /* factor below the bound, taken as 0: PairSource::bound_uq32 */
+  uint32_t skipped_small;       /* too small to ask rays for, taken as 0: PairSource::bound_uq32 */
   uint32_t skipped_convex;      /* evaluated without a thought of blockers: the scene is convex */
   uint32_t networks;            /* networks run */
   uint32_t rays_spared;         /* rays not made: no blocker reaches between the two patches */

@@ -134,7 +134,7 @@ void add_twice(const urad_counters& part, urad_counters* sum) {
 }  // namespace
 
 bool has_lanes(const urad::PairSource& pairs) {
-  return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.bound_uq32 == 0 && pairs.skips_off == 0;
+  return (pairs.scene->flags & URAD_SCENE_CONVEX) && pairs.skips_off == 0;
 }
 
 void lane_rows(const urad::PairSource& pairs, int threads, std::span<std::uint32_t> f_uq32,

@@ -7,8 +7,8 @@
 
 namespace host {
 
-/// True where lane_rows() gives what urad::pair_fill() gives: the scene is convex, no skip is
-/// switched off and none bounded.
+/// True where lane_rows() gives what urad::pair_fill() gives: the scene is convex and no skip
+/// is switched off.
 bool has_lanes(const urad::PairSource& pairs);
 
 /// Factors [N][N] UQ0.32, the same bits as urad::pair_fill() row by row, and adds to *counters (and

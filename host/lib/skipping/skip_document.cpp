@@ -255,7 +255,9 @@ Written by `{}`.
 
 Every skip has a counter in the run's JSON and report, and a switch for tests. With one skip off the integers are the same
 and the work rises by what its counter says (`tests/skipping_test.cpp`). One skip may change light: bounded contribution, off
-unless asked for (`urad solve --bound`), which loses at most its bound of a row.
+unless asked for (`urad solve --bound`), which loses at most its bound of a row, and only where rays are spared by it. A pose
+table is made beforehand, on the host: poses that are equal but for what six printed decimals leave open share a factor there,
+and it states by how much F can differ (`tests/pose_table_test.cpp`); in cube7 all bits are those of every pair for itself.
 
 Rows are those of the general network with {} rays for each pair that a blocker may stand between.
 
