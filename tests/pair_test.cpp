@@ -186,3 +186,29 @@ TEST_CASE("the kernel of a pair that is far, small and grazing does not wrap: it
   REQUIRE(urad::pair_kernel(flat, {-far, -far, 0}, other, {far, far, 1}, &kernel));
   CHECK(kernel.log2_kernel_q24 == -64 * (1 << 24));
 }
+
+TEST_CASE("long strips close above each other, shifted along: their bend ends, and does not wrap") {
+  int steep = 0;
+  for (const double height : {0.01, 0.02, 0.04, 0.08, 0.3}) {
+    for (const double shift : {0.0, 0.03, 0.1, 0.2}) {
+      CAPTURE(height);
+      CAPTURE(shift);
+      const Polygon p{{{0, 0, 0}, {1, 0, 0}, {1, 0.02, 0}, {0, 0.02, 0}}, {}};
+      Polygon q{{{0, 0, height}, {0, 0.02, height}, {1, 0.02, height}, {1, 0, height}}, {}};
+      for (host::Vec3& x : q.outer) x.x += shift;
+      const host::FixedScene scene = host::FixedScene::of_polygons({p, q}, {});
+      const urad::Patch i = urad::patch_at(scene.pod(), 0), j = urad::patch_at(scene.pod(), 1);
+      urad::PairKernel kernel;
+      REQUIRE(urad::pair_kernel(*i.shape, i.centroid, *j.shape, j.centroid, &kernel));
+      const double size = 1.0004 / (12 * (height * height + shift * shift));  // of both alike
+      steep += 20 * std::min(size, 8.0) > 63;
+      CHECK(std::abs(kernel.log2_bend_q24) <= 2.17 * 0x1p24);
+      CHECK(kernel.rho_uq16 == doctest::Approx(2 * std::min(size, 8.0) * 65536).epsilon(1e-3));
+      // What both moment kernels say, as long as sizes do not end at 8.
+      const double exact = host::moment_kernel_estimate(p, q).f;
+      if (size < 8 && exact < 1)
+        CHECK(engine_factor(p, q, urad::Kernel::moment) == doctest::Approx(exact).epsilon(1e-2));
+    }
+  }
+  CHECK(steep >= 10);
+}

@@ -82,9 +82,12 @@ bool comes_first(const PairSide& x, int16_t slant_x, const PairSide& y, int16_t 
   return a.fill_uq15 >= b.fill_uq15;
 }
 
-/// T / sqrt(1 + (T/1.5)^2) in units of log2, T = T2 or T2 + T3. |T2| <= 36 and |T3| <= 8, so the
-/// square in Q28 fits 39 bits.
-int32_t bend_q24(int32_t t_q22) noexcept {
+/// T / sqrt(1 + (T/1.5)^2) in units of log2, T = T2 or T2 + T3. Long patches close above each other
+/// have |T2| up to 224; beyond 63, where the square in UQ20 would wrap, it is within 0.03 % of its end.
+int32_t bend_q24(int32_t any_t_q22) noexcept {
+  const int32_t t_q22 = any_t_q22 > kTermLimit_q22    ? kTermLimit_q22
+                        : any_t_q22 < -kTermLimit_q22 ? -kTermLimit_q22
+                                                      : any_t_q22;
   const int64_t t_q14 = round_shift(t_q22, 8);
   const uint32_t square_uq20 = uint32_t(uint64_t(t_q14 * t_q14) >> 8);
   const uint32_t x_uq20 =

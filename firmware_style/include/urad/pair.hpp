@@ -21,6 +21,7 @@ inline constexpr int32_t kLog2Pi_q24 =
 inline constexpr int32_t kLog2Log2E_q24 =
     int32_t(table::ln(1 / table::kLn2) / table::kLn2 * 16777216 + 0.5);
 inline constexpr uint32_t kSizeLimit_uq22 = uint32_t{8} << 22;  ///< s and slopes of a pair end here
+inline constexpr int32_t kTermLimit_q22 = 63 << 22;             ///< and so does |T| in a bend
 
 /// Network inputs, all Q0.15. First = the patch that comes first in the canonical order (larger
 /// area, then cosine, ...):

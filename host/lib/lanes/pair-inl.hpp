@@ -105,8 +105,10 @@ HWY_INLINE Ints t2_q22(const SideVector& side) {
       hn::ShiftLeft<2>(side.across_q22));
 }
 
-HWY_INLINE Ints bend_q24(Ints t2_q22) {
-  // |T2| <= 36 in Q14 is below 2^20: its square over 2^8 from two halves of 10 bits.
+HWY_INLINE Ints bend_q24(Ints any_t2_q22) {
+  const Ints t2_q22 =
+      hn::Clamp(any_t2_q22, ints(-urad::kTermLimit_q22), ints(urad::kTermLimit_q22));
+  // |T2| <= 63 in Q14 is below 2^20: its square over 2^8 from two halves of 10 bits.
   const Words t = magnitude(round_shift<8>(t2_q22));
   const Words high = hn::ShiftRight<10>(t), low = hn::And(t, words(1023));
   const Words cross = hn::ShiftLeft<11>(hn::Mul(high, low));
