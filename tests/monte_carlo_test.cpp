@@ -78,6 +78,25 @@ TEST_CASE("from a huge to a tiny polygon: most rays of the huge one start where 
   }
 }
 
+TEST_CASE("a speck that leans through a wall: what it sees of the wall ends a hair beside it") {
+  // Ends of that edge lie in opposite directions: they do not say where between them it passes.
+  const Polygon wall = flipped(rectangle(3, 2));
+  for (const double size : {1e-3, 1e-6, 1e-8}) {
+    for (const double lean : {0.4, 1.2, 2.0}) {
+      const Vec3 along = size * Vec3(std::cos(lean), 0, std::sin(lean)), across(0, size, 0),
+                 middle(1.3, 0.7, 0);
+      const Polygon speck{
+          {middle - along, middle - along + across, middle + along + across, middle + along}, {}};
+      CAPTURE(size);
+      CAPTURE(lean);
+      const double exact = host::reference_form_factor(speck, wall);
+      const Estimate e = monte_carlo(speck, wall, 1 << 16);
+      CHECK(exact > 0.01);
+      CHECK(std::abs(e.f - exact) <= 5 * e.relative_error * e.f + 1e-5 * exact);
+    }
+  }
+}
+
 TEST_CASE("segments hit inside, and not beside, behind or at their ends") {
   const Polygon square = rectangle(1, 1);
   CHECK(segment_hits({0.5, 0.5, 1}, {0.5, 0.5, -1}, square));

@@ -57,13 +57,18 @@ class Sequence {
   std::uint64_t at_[kDimensions];
 };
 
-/// Chooses an index with probability weight / total, and stretches u over the chosen one's share.
-std::size_t choose(const std::vector<double>& weights, double total, double* u) {
+/// Chooses one with probability weight / total, and stretches u over the chosen one's share.
+template <class T, class Weight>
+const T& choose(const std::vector<T>& all, const Weight& weight, double total, double* u) {
   double left = *u * total;
   std::size_t k = 0;
-  while (k + 1 < weights.size() && left >= weights[k]) left -= weights[k++];
-  *u = std::clamp(left / weights[k], 0.0, 1.0);
-  return k;
+  while (k + 1 < all.size() && left >= weight(all[k])) left -= weight(all[k++]);
+  *u = std::clamp(left / weight(all[k]), 0.0, 1.0);
+  return all[k];
+}
+
+double area_of(const Triangle& t) {
+  return 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
 }
 
 /// Uniform on a triangle by the square map that collapses one side.
@@ -83,6 +88,36 @@ Vec3 unit_across(const Vec3& x, const Vec3& axis) {
   const Vec3 across = x - glm::dot(x, axis) * axis;
   const double length = glm::length(across);
   return length > 0 ? across / length : Vec3(0);
+}
+
+/// A triangle as an eye sees it: corners less the eye, and their solid angle.
+struct Seen {
+  Triangle corner;
+  Triangle direction;
+  double angle;
+
+  explicit Seen(const Triangle& less_eye)
+      : corner(less_eye),
+        direction{glm::normalize(corner[0]), glm::normalize(corner[1]), glm::normalize(corner[2])},
+        angle(solid_angle(direction[0], direction[1], direction[2])) {}
+};
+
+/// Adds the triangle, in two parts where an edge passes so close to the eye that its ends lie in
+/// opposite directions: they do not say which half of a circle the edge is, its nearest point does.
+void add_seen(const Triangle& less_eye, std::vector<Seen>* seen) {
+  constexpr double kOpposite = 1e-6;  // 1 + cosine: within 0.08 degrees
+  const Seen whole(less_eye);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (glm::dot(whole.direction[k], whole.direction[next]) > kOpposite - 1) continue;
+    const Vec3 &a = less_eye[k], &b = less_eye[next], &c = less_eye[(k + 2) % 3];
+    const Vec3 nearest = a + (b - a) * (glm::dot(a, a - b) / glm::dot(b - a, b - a));
+    if (nearest == a || nearest == b || nearest == Vec3(0)) break;  // no digits left between
+    add_seen({a, nearest, c}, seen);
+    add_seen({nearest, b, c}, seen);
+    return;
+  }
+  seen->push_back(whole);
 }
 
 /// Uniform direction inside a spherical triangle of the given solid angle [Arvo 1995, algorithm 1].
@@ -135,7 +170,6 @@ class Blocker {
 /// Triangles of what one polygon shows to the other.
 struct Side {
   std::vector<Triangle> triangles;
-  std::vector<double> areas;
   double area = 0;
   Vec3 normal{0};
 };
@@ -168,43 +202,34 @@ struct Scene {
   }
 
   /// One ray: its share of F, whose mean over the points of the unit cube is F from `from`.
-  double sample(Point u, std::vector<double>* angles) const {
-    const Triangle& start = from.triangles[choose(from.areas, from.area, &u[0])];
+  double sample(Point u, std::vector<Seen>* seen) const {
+    const Triangle& start = choose(from.triangles, area_of, from.area, &u[0]);
     const Vec3 x = on_triangle(start, u[0], u[1]);
     double total = 0;
-    angles->clear();
-    for (const Triangle& t : to.triangles) {
-      angles->push_back(solid_angle(glm::normalize(t[0] - x), glm::normalize(t[1] - x),
-                                    glm::normalize(t[2] - x)));
-      total += angles->back();
-    }
+    seen->clear();
+    for (const Triangle& t : to.triangles) add_seen({t[0] - x, t[1] - x, t[2] - x}, seen);
+    for (const Seen& part : *seen) total += part.angle;
     if (!(total > 0)) return 0;
     if (total > kWideAngle) return seen_by_cosine(x, u[2], u[3]) ? 1 : 0;
-    const std::size_t k = choose(*angles, total, &u[2]);
-    const Triangle& aim = to.triangles[k];
-    const double probability = (*angles)[k] / total;
-    Vec3 y;
+    const Seen& aim = choose(
+        *seen, [](const Seen& part) { return part.angle; }, total, &u[2]);
+    Vec3 r;
     double share;
-    if ((*angles)[k] > kSmallAngle) {
-      const Vec3 d = in_spherical_triangle(glm::normalize(aim[0] - x), glm::normalize(aim[1] - x),
-                                           glm::normalize(aim[2] - x), (*angles)[k], u[2], u[3]);
-      y = x + d * (glm::dot(to.normal, aim[0] - x) / glm::dot(to.normal, d));
+    if (aim.angle > kSmallAngle) {
+      const auto& [a, b, c] = aim.direction;
+      const Vec3 d = in_spherical_triangle(a, b, c, aim.angle, u[2], u[3]);
+      r = d * (glm::dot(to.normal, aim.corner[0]) / glm::dot(to.normal, d));
       share = glm::dot(from.normal, d) * total;
     } else {
-      y = on_triangle(aim, u[2], u[3]);
-      const Vec3 r = y - x;
+      r = on_triangle(aim.corner, u[2], u[3]);
       const double r2 = glm::dot(r, r);
-      const double area = 0.5 * glm::length(glm::cross(aim[1] - aim[0], aim[2] - aim[0]));
-      share = -glm::dot(from.normal, r) * glm::dot(to.normal, r) / r2 * (area / r2) / probability;
+      share = -glm::dot(from.normal, r) * glm::dot(to.normal, r) / r2 * (area_of(aim.corner) / r2) *
+              (total / aim.angle);
     }
-    if (!(share > 0) || blocked(x, y)) return 0;
+    if (!(share > 0) || blocked(x, x + r)) return 0;
     return share * std::numbers::inv_pi;
   }
 };
-
-double area_of(const Triangle& t) {
-  return 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
-}
 
 /// The part in front of a plane; cut first, clipped then, so that no loop touches itself.
 Side clipped_side(const Polygon& polygon, const Vec3& normal, const Moments& plane) {
@@ -216,8 +241,7 @@ Side clipped_side(const Polygon& polygon, const Vec3& normal, const Moments& pla
       const Triangle piece = {loop[0], loop[k], loop[k + 1]};
       if (!(area_of(piece) > 0)) continue;
       result.triangles.push_back(piece);
-      result.areas.push_back(area_of(piece));
-      result.area += result.areas.back();
+      result.area += area_of(piece);
     }
   }
   return result;
@@ -249,13 +273,13 @@ Estimate monte_carlo(const Polygon& p, const Polygon& q, std::int64_t samples,
 
   const int replicates = static_cast<int>(std::min<std::int64_t>(kReplicates, samples));
   const std::int64_t rays = (samples + replicates - 1) / replicates;
-  std::vector<double> angles;
+  std::vector<Seen> seen;
   double sum = 0;
   double squares = 0;
   for (int r = 0; r < replicates; ++r) {
     Sequence sequence(&seed);
     double mean = 0;
-    for (std::int64_t k = 0; k < rays; ++k) mean += scene.sample(sequence.next(), &angles);
+    for (std::int64_t k = 0; k < rays; ++k) mean += scene.sample(sequence.next(), &seen);
     mean /= static_cast<double>(rays);
     sum += mean;
     squares += mean * mean;
