@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "form_factor/monte_carlo.hpp"
 #include "form_factor/reference.hpp"
 #include "geometry/parse.hpp"
 #include "geometry/planar.hpp"
-#include "method/engine_source.hpp"
 #include "method/pair_method.hpp"
 #include "stress/attacks.hpp"
+#include "stress/growing_blockers.hpp"
 #include "stress/hostile_pairs.hpp"
 
 namespace host {
@@ -123,15 +124,24 @@ double deviation(const PolygonPair& pair, const Estimate& exact) {
   return off;
 }
 
-/// What the rounding of coordinates leaves undetermined of the height of `other` over the plane of
-/// `polygon`, relative: the rounding itself, and its lever over the polygon's width.
+/// How far corners are from the plane of their polygon, or may be by the rounding of coordinates.
+double unevenness(const Polygon& polygon) {
+  const Moments m = moments(polygon);
+  double most = coordinate_rounding(polygon);
+  for (const Vec3& x : polygon.outer)
+    most = std::max(most, std::abs(glm::dot(m.normal, x - m.centroid)));
+  return most;
+}
+
+/// What uneven corners leave undetermined of the height of `other` over the plane of `polygon`,
+/// relative: the corner itself, and its lever over the polygon's width.
 double loose(const Polygon& polygon, const Polygon& other) {
   const Moments m = moments(polygon);
   const Vec3 r = moments(other).centroid - m.centroid;
   const double trace = m.second[0][0] + m.second[1][1] + m.second[2][2];
   const double width = m.area / std::sqrt(12 * trace);
-  const double rounding = std::max(coordinate_rounding(polygon), coordinate_rounding(other));
-  return rounding * (1 + glm::length(r) / width) / std::abs(glm::dot(m.normal, r));
+  const double uneven = std::max(unevenness(polygon), unevenness(other));
+  return uneven * (1 + glm::length(r) / width) / std::abs(glm::dot(m.normal, r));
 }
 
 /// The same for a method that promises no more than its accuracy: shown where the pair matters.
@@ -204,42 +214,6 @@ void check_split(const PolygonPair& pair, const Estimate& exact, double area,
   }
 }
 
-/// The unobstructed factor, then growing blockers: every method must fall.
-void check_blockers(const PolygonPair& pair, const NetChoice& nets, Findings* findings) {
-  const double sizes[] = {0.05, 0.2, 0.8, 3};
-  double before = monte_carlo(pair.p, pair.q, 256).f;
-  for (const double size : sizes) {
-    const double f = monte_carlo(pair.p, pair.q, 256, {blocker_between(pair, 8, 0.5, size)}).f;
-    findings->measure("monte-carlo: growth with a blocker",
-                      relative(std::max(f, before), before, 0), 1e-12);
-    before = f;
-  }
-  for (const char* name : {"fixed-moment", "hemicube:32", "hybrid:32"}) {
-    try {
-      double open = 0, last = 0;
-      for (std::size_t k = 0; k < std::size(sizes) + 1; ++k) {
-        std::vector<Polygon> blockers;
-        // A large one behind p is always there and keeps the scene's unit.
-        if (k > 0) blockers.push_back(blocker_between(pair, 8, 0.5, sizes[k - 1]));
-        blockers.push_back(blocker_between(pair, 8, -3, 3 * sizes[3]));
-        const FixedScene scene = FixedScene::of_polygons({pair.p, pair.q}, blockers);
-        const EngineSource source(scene, parse_method(name), nets, {});
-        std::array<std::uint32_t, 2> row{};
-        source.row(0, row.data());
-        if (k == 0) last = open = row[1];
-        // Where no eye of the item buffer sees the receiver, the hybrid asks rays from the whole patch:
-        // a greater blocker may then let more through than the eyes said of a smaller one.
-        if (open > 0)
-          findings->measure(fmt::format("{}: growth with a blocker, of the open factor", name),
-                            std::max(0.0, row[1] - last - 1) / open,
-                            std::string_view(name) == "hybrid:32" ? kShown : 1e-3);
-        last = row[1];
-      }
-    } catch (const Error&) {  // sizes that no common unit can hold
-    }
-  }
-}
-
 class PairCheck {
  public:
   explicit PairCheck(const NetChoice& nets) : nets_(nets), methods_(methods(nets_)) {}
@@ -261,7 +235,7 @@ class PairCheck {
     const PolygonPair local = near_origin(pair);
     check_split(local, reference_estimate(local.p, local.q), moments(local.p).area, methods_,
                 findings);
-    if (exact.f > 0) check_blockers(pair, nets_, findings);
+    if (exact.f > 0) check_growing_blockers(pair, nets_, findings);
   }
 
  private:
