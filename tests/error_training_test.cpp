@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "network/random.hpp"
+#include "urad/error_guess.hpp"
 
 namespace {
 

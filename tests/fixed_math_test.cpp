@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "urad/angle.hpp"
+#include "urad/log2.hpp"
+#include "urad/ratio.hpp"
 #include "urad/sigmoid.hpp"
 #include "urad/vec.hpp"
 
@@ -49,16 +51,32 @@ Wide rounded(Wide x, int n) {
 TEST_CASE("round_shift of every 16-bit number by every shift is the nearest, ties away from zero") {
   bool same = true;
   for (int n = 1; n <= 31; ++n)
-    for (std::int32_t x = -32768; x <= 32767; ++x)
-      same = same && urad::round_shift(x, n) == std::int32_t(rounded(x, n));
+    for (std::int32_t x = -32768; x <= 32767; ++x) {
+      const auto exact = std::int32_t(rounded(x, n));
+      same =
+          same && urad::round_shift<false>(x, n) == exact && urad::round_shift<true>(x, n) == exact;
+    }
   CHECK(same);
 }
 
+// Of functions that have two ways, by <false> that of registers of 32 bits, by <true> of 64.
 TEST_CASE("round_shift holds at all corners of 32 and 64 bits") {
   for (const std::int32_t x : corners_32())
-    for (int n = 1; n <= 31; ++n) CHECK(urad::round_shift(x, n) == std::int32_t(rounded(x, n)));
+    for (int n = 1; n <= 31; ++n) {
+      CHECK(urad::round_shift<false>(x, n) == std::int32_t(rounded(x, n)));
+      CHECK(urad::round_shift<true>(x, n) == std::int32_t(rounded(x, n)));
+    }
   for (const std::int64_t x : corners(63))
-    for (int n = 1; n <= 62; ++n) CHECK(urad::round_shift(x, n) == std::int64_t(rounded(x, n)));
+    for (int n = 1; n <= 62; ++n) {
+      CHECK(urad::round_shift<false>(x, n) == std::int64_t(rounded(x, n)));
+      CHECK(urad::round_shift<true>(x, n) == std::int64_t(rounded(x, n)));
+    }
+  for (int n = 1; n <= 62; ++n)
+    for (const std::int64_t sign : {-1, 1}) {
+      const std::int64_t most = sign * (INT64_MAX - (std::int64_t{1} << (n - 1)));
+      CHECK(urad::round_shift<false>(most, n) == std::int64_t(rounded(most, n)));
+      CHECK(urad::round_shift<true>(most, n) == std::int64_t(rounded(most, n)));
+    }
 }
 
 TEST_CASE("magnitude, top_bit and shift_down are what they say, at both ends too") {
@@ -70,12 +88,16 @@ TEST_CASE("magnitude, top_bit and shift_down are what they say, at both ends too
   }
   CHECK(urad::magnitude(INT64_MIN) == std::uint64_t{1} << 63);
   for (int n = 0; n < 64; ++n) {
-    CHECK(urad::top_bit(std::uint64_t{1} << n) == n);
-    CHECK(urad::top_bit((std::uint64_t{1} << n) | 1) == n);
-    CHECK(urad::top_bit((~std::uint64_t{0}) >> n) == 63 - n);
+    for (const std::uint64_t low : {std::uint64_t{0}, std::uint64_t{1}}) {
+      CHECK(urad::top_bit<false>((std::uint64_t{1} << n) | low) == n);
+      CHECK(urad::top_bit<true>((std::uint64_t{1} << n) | low) == n);
+    }
+    CHECK(urad::top_bit<false>((~std::uint64_t{0}) >> n) == 63 - n);
+    CHECK(urad::top_bit<true>((~std::uint64_t{0}) >> n) == 63 - n);
     CHECK(urad::shift_down(INT64_MIN, n) == std::int64_t(-std::ldexp(1.0, 63 - n)));
   }
-  CHECK(urad::top_bit(std::uint64_t{0}) == 0);
+  CHECK(urad::top_bit<false>(std::uint64_t{0}) == 0);
+  CHECK(urad::top_bit<true>(std::uint64_t{0}) == 0);
 }
 
 TEST_CASE("mul_round and mul_shift are the rounded product wherever they promise it") {
@@ -87,7 +109,8 @@ TEST_CASE("mul_round and mul_shift are the rounded product wherever they promise
         if (urad::magnitude(y) >> (32 - n) != 0 || exact > INT32_MAX || exact < -INT32_MAX)
           continue;
         if ((Wide{urad::magnitude(x)} * urad::magnitude(y)) >> n > INT32_MAX) continue;
-        CHECK(urad::mul_round(x, y, n) == std::int32_t(exact));
+        CHECK(urad::mul_round<false>(x, y, n) == std::int32_t(exact));
+        CHECK(urad::mul_round<true>(x, y, n) == std::int32_t(exact));
       }
     for (const std::uint32_t y :
          {0u, 1u, 2u, 3u, 255u, 256u, 32767u, 32768u, 40000u, 65535u, 65536u})
@@ -95,9 +118,24 @@ TEST_CASE("mul_round and mul_shift are the rounded product wherever they promise
         // Below 2^-16 of the product bits are dropped before it is rounded.
         const Wide high = (Wide{urad::magnitude(x)} * y) >> 16;
         const Wide exact = n == 16 ? high : (high + (Wide{1} << (n - 17))) >> (n - 16);
-        CHECK(urad::mul_shift(x, y, n) == std::int32_t(x < 0 ? -exact : exact));
+        CHECK(urad::mul_shift<false>(x, y, n) == std::int32_t(x < 0 ? -exact : exact));
+        CHECK(urad::mul_shift<true>(x, y, n) == std::int32_t(x < 0 ? -exact : exact));
       }
   }
+}
+
+TEST_CASE("what is normalised in registers of 64 bits is what it is in two of 32") {
+  for (const std::int64_t corner : corners(63)) {
+    const std::uint64_t x = urad::magnitude(corner);
+    CHECK(urad::log2_q24<false>(x) == urad::log2_q24<true>(x));
+    CHECK(urad::scaled<false>(x).mantissa == urad::scaled<true>(x).mantissa);
+    CHECK(urad::scaled<false>(x).exponent == urad::scaled<true>(x).exponent);
+    if (x == 0) continue;
+    CHECK(urad::inverse_root<false>(x).mantissa_uq30 == urad::inverse_root<true>(x).mantissa_uq30);
+    CHECK(urad::inverse_root<false>(x).half == urad::inverse_root<true>(x).half);
+  }
+  CHECK(urad::log2_q24(std::uint64_t{0}) == 0);
+  CHECK(urad::log2_q24(std::uint32_t{0}) == 0);
 }
 
 TEST_CASE("products of all pairs of 16-bit numbers on a grid are exact") {

@@ -31,14 +31,15 @@ constexpr int32_t greatest(int32_t a, int32_t b) noexcept { return a > b ? a : b
 /// One pair on its way from cheap to dear.
 class Search {
  public:
-  Search(const ErrorModels& models, const urad_scene& scene, const Patch& i,
-         const Patch& j) noexcept
-      : models_(models), scene_(scene), i_(i), j_(j) {}
+  /// estimate: whether result.log2_error_q8 is wanted, too; it takes all of a guess to say it.
+  Search(const ErrorModels& models, const urad_scene& scene, const Patch& i, const Patch& j,
+         bool estimate) noexcept
+      : models_(models), scene_(scene), i_(i), j_(j), estimate_(estimate) {}
 
   /// False when the two exchange nothing.
-  bool begin() noexcept {
+  bool begin(Side side) noexcept {
     bool cut = false;
-    if (!clipped_kernel(scene_, i_, j_, &cuts_, &kernel_, &limit_q24_, &cut)) return false;
+    if (!clipped_kernel(scene_, i_, j_, &cuts_, &kernel_, &limit_q24_, &cut, side)) return false;
     fill_traits(scene_, i_, j_, cuts_, kernel_, &traits_);
     return true;
   }
@@ -68,6 +69,7 @@ class Search {
 
  private:
   bool guess(const ErrorModel& model) noexcept {
+    if (!estimate_) return error_within(model, traits_, wanted_q8_);
     guess_q8_ = error_q8(model, traits_);
     return guess_q8_ <= wanted_q8_;
   }
@@ -141,6 +143,7 @@ class Search {
   const ErrorModels& models_;
   const urad_scene& scene_;
   const Patch &i_, &j_;
+  bool estimate_;
   Cuts cuts_;
   PairKernel kernel_;  // points into cuts_
   PairTraits traits_;
@@ -151,13 +154,11 @@ class Search {
   uint16_t point_sums_ = 0, cubics_ = 0;
 };
 
-}  // namespace
-
-CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scene, const Patch& i,
-                               const Patch& j, const urad_net* net, int16_t log2_error_q8,
-                               urad_counters* counters) noexcept {
-  Search search(models, scene, i, j);
-  const CheapestPair pair = search.begin() ? search.run(net, log2_error_q8) : search.nothing();
+CheapestPair cheapest(const ErrorModels& models, const urad_scene& scene, const Patch& i,
+                      const Patch& j, Side side, const urad_net* net, int16_t log2_error_q8,
+                      bool estimate, urad_counters* counters) noexcept {
+  Search search(models, scene, i, j, estimate);
+  const CheapestPair pair = search.begin(side) ? search.run(net, log2_error_q8) : search.nothing();
   if (pair.way == Way::none) {
     ++counters->skipped_facing;
     return pair;
@@ -169,6 +170,14 @@ CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scen
   return pair;
 }
 
+}  // namespace
+
+CheapestPair cheapest_exchange(const ErrorModels& models, const urad_scene& scene, const Patch& i,
+                               const Patch& j, const urad_net* net, int16_t log2_error_q8,
+                               urad_counters* counters) noexcept {
+  return cheapest(models, scene, i, j, Side::both, net, log2_error_q8, true, counters);
+}
+
 const ErrorModels& error_models() noexcept { return kErrorModels; }
 
 CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Patch& j,
@@ -177,9 +186,10 @@ CheapestPair cheapest_exchange(const urad_scene& scene, const Patch& i, const Pa
   return cheapest_exchange(kErrorModels, scene, i, j, net, log2_error_q8, counters);
 }
 
-int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j) noexcept {
-  const CheapestPair pair =
-      cheapest_exchange(*source.scene, i, j, source.net, source.log2_error_q8, source.counters);
+int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j,
+                           Side side) noexcept {
+  const CheapestPair pair = cheapest(kErrorModels, *source.scene, i, j, side, source.net,
+                                     source.log2_error_q8, false, source.counters);
   if (source.ways) ++source.ways[int(pair.way)];
   return pair.log2_exchange_q24;
 }

@@ -16,9 +16,9 @@ constexpr int16_t trait_q8(int32_t x_q8) noexcept {
                                           : x_q8);
 }
 
-/// log2 of x with `fraction_bits`; 0 counts as one unit.
+/// log2 of x with `fraction_bits`, 8 to 24: within the limit of traits. 0 counts as one unit.
 constexpr int16_t log2_trait_q8(uint32_t x, int fraction_bits) noexcept {
-  return trait_q8(q8(log2_q24(x)) - fraction_bits * 256);
+  return int16_t(int32_t((uint32_t(log2_q24(x)) + 0x8000u) >> 16) - fraction_bits * 256);
 }
 
 /// Opposite corners have the same mean, within 2^-8 of the patch's size.

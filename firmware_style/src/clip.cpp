@@ -142,9 +142,18 @@ PatchPlane plane_of(const Patch& patch) noexcept {
 Side side_of_plane(const urad_scene& scene, const Patch& patch, const urad_point& on,
                    const urad_point& normal_q30) noexcept {
   SideCount count;
-  for (uint16_t k = 0; k < patch.vertex_count; ++k) {
-    count.add(plane_distance(normal_q30, on, patch_vertex(scene, patch, k)));
+  if (const urad_grid* const grid = patch.surface->grid; grid && along_an_axis(normal_q30)) {
+    const auto rise = [&](const urad_point& step) {
+      return plane_distance(normal_q30, {0, 0, 0}, step);
+    };
+    const int32_t at = plane_distance(normal_q30, on, patch_vertex(scene, patch, 0));
+    const int32_t u = rise(grid->step_u), v = rise(grid->step_v);
+    count.add(at + (u < 0 ? u : 0) + (v < 0 ? v : 0));  // the lowest corner
+    count.add(at + (u > 0 ? u : 0) + (v > 0 ? v : 0));
+    return count.side();
   }
+  for (uint16_t k = 0; k < patch.vertex_count; ++k)
+    count.add(plane_distance(normal_q30, on, patch_vertex(scene, patch, k)));
   return count.side();
 }
 

@@ -3,6 +3,7 @@
 #include "least.hpp"
 #include "urad/clip.hpp"
 #include "urad/pair.hpp"
+#include "urad/vec.hpp"
 
 namespace urad {
 
@@ -30,9 +31,22 @@ struct Cuts {
   Cut i, j;
 };
 
-/// Kernel terms of what is left; false when that is nothing.
+/// Of a patch of which no part is behind the plane: whether one is in front. The greatest of four
+/// distances is not below that of the centroid, which is half a unit off in every coordinate.
+inline bool clearly_in_front(const Patch& patch, const PatchPlane& plane) noexcept {
+  return plane_distance(plane.normal_q30, plane.on, patch.centroid) > kPlaneTolerance + 2;
+}
+
+/// Kernel terms of what is left; false when that is nothing. side: what side_of_run() says of i and
+/// the surface of j, if it was asked; where the two face each other, looks at every vertex are saved.
 inline bool clipped_kernel(const urad_scene& scene, const Patch& i, const Patch& j, Cuts* cuts,
-                           PairKernel* kernel, int32_t* limit_q24, bool* clipped) noexcept {
+                           PairKernel* kernel, int32_t* limit_q24, bool* clipped,
+                           Side side = Side::both) noexcept {
+  if (side == Side::front && clearly_in_front(j, plane_of(i))) {
+    cuts->i.clipped = cuts->j.clipped = *clipped = false;
+    *limit_q24 = least(i.shape->log2_area_q24, j.shape->log2_area_q24);
+    return pair_kernel(*i.shape, i.centroid, *j.shape, j.centroid, kernel);
+  }
   if (!cut_to_front(scene, i, plane_of(j), &cuts->i) ||
       !cut_to_front(scene, j, plane_of(i), &cuts->j))
     return false;

@@ -17,7 +17,7 @@ urad_status no_light(uint32_t* f_uq32, uint16_t count) noexcept {
 int32_t exchange_q24(const PairSource& source, const Patch& i, const Patch& j, Side side,
                      SmallExchange* limit) noexcept {
   const urad_scene& scene = *source.scene;
-  if (source.exchange) return source.exchange(source, i, j);
+  if (source.exchange) return source.exchange(source, i, j, side);
   if (source.points) return exchange_exact_q24(scene, i, j, source.points, source.counters);
   const auto exchange = side == Side::front ? exchange_in_front_q24 : exchange_log2_q24;
   return exchange(scene, i, j, source.kernel, source.net, source.skips_off, source.counters, limit);

@@ -44,13 +44,17 @@ struct InverseRoot {
   uint32_t mantissa_uq30;
   int half;
 };
+template <bool wide = kWideRegisters>
 constexpr InverseRoot inverse_root(uint64_t x) noexcept {
   const int even = (top_bit(x) | 1) + 1;  // x = v 2^even, v in [1/4, 1)
-  const uint32_t v_uq32 = even >= 32 ? uint32_t(x >> (even - 32)) : uint32_t(x << (32 - even));
+  const uint32_t v_uq32 = wide         ? uint32_t((x << (64 - even)) >> 32)
+                          : even >= 32 ? uint32_t(x >> (even - 32))
+                                       : uint32_t(x << (32 - even));
   const auto product = [](uint32_t a, uint32_t b, int shift) {
     return uint32_t(wide_umul(a, b) >> shift);
   };
-  const uint32_t y_uq30 = exp2_uq((16 << 24) - shift_down(log2_q24(v_uq32), 1), 30);
+  const uint32_t start_q24 = (16u << 24) - (uint32_t(log2_q24(v_uq32)) >> 1);  // 0 .. 1
+  const uint32_t y_uq30 = table::exp2_mantissa_uq30(start_q24 & 0xFFFFFFu) << (start_q24 >> 24);
   const uint32_t square_uq30 = product(product(v_uq32, y_uq30, 32), y_uq30, 30);  // v y^2, about 1
   return {product(y_uq30, 3221225472u - square_uq30, 31), even >> 1};
 }
@@ -61,13 +65,20 @@ constexpr InverseRoot inverse_root(uint64_t x) noexcept {
 ///   0.2 (1/128)^4                                 0.8e-9
 ///   rounding of knots and products                1.5e-9
 ///   measured over the whole domain: tests/lambert_fixed_test.cpp             absolute <= 5.0e-9
-constexpr int32_t angle_q29(int64_t x, int64_t y) noexcept {
+struct Tangent {
+  int32_t t_q30;       ///< of the smaller of |x| and |y| by the larger, 0 .. 1
+  bool steep, obtuse;  ///< y is the larger; x is negative
+};
+constexpr Tangent tangent(int64_t x, int64_t y) noexcept {
   const uint64_t along = magnitude(x), across = magnitude(y);
   const bool steep = across > along;
   const uint64_t large = steep ? across : along, small = steep ? along : across;
-  if (large == 0) return 0;
-  const int64_t quotient_q30 = ratio_q(int64_t(small), int64_t(large), 30);
-  const int32_t t_q30 = quotient_q30 > (1 << 30) ? 1 << 30 : int32_t(quotient_q30);
+  if (large == 0) return {0, false, false};
+  const int64_t quotient_q30 = to_q(scaled(small) / scaled(large), 30);
+  return {quotient_q30 > (1 << 30) ? 1 << 30 : int32_t(quotient_q30), steep, x < 0};
+}
+constexpr int32_t angle_q29(const Tangent& tangent) noexcept {
+  const int32_t t_q30 = tangent.t_q30;
   const int k = (t_q30 + (1 << 23)) >> 24;
   const auto mul_q30 = [](int32_t a, int32_t b) {
     return int32_t(round_shift(wide_mul(a, b), 30));
@@ -81,8 +92,9 @@ constexpr int32_t angle_q29(int64_t x, int64_t y) noexcept {
   const int32_t rest_q30 = mul_q30(square_q30, bend_q30 - k * (1 << 24));
   const int32_t arc_q29 =
       round_shift(int32_t(table::kArctan.value_uq30[k]) + first_q30 + rest_q30, 1);
-  const int32_t acute_q29 = steep ? (kPi_q29 >> 1) - arc_q29 : arc_q29;
-  return x < 0 ? kPi_q29 - acute_q29 : acute_q29;
+  const int32_t acute_q29 = tangent.steep ? (kPi_q29 >> 1) - arc_q29 : arc_q29;
+  return tangent.obtuse ? kPi_q29 - acute_q29 : acute_q29;
 }
+constexpr int32_t angle_q29(int64_t x, int64_t y) noexcept { return angle_q29(tangent(x, y)); }
 
 }  // namespace urad

@@ -16,7 +16,7 @@
 // (src/cheapest_floor.hpp); kernel and network are not asked where moments say nothing
 // (moments_do()).
 #pragma once
-#include "urad/error_model.hpp"
+#include "urad/error_guess.hpp"
 #include "urad/form_factor.hpp"
 
 namespace urad {
@@ -71,7 +71,8 @@ int refined_stops(const urad_scene& scene, const Patch& i, const Patch& j, Refin
 
 /// For PairSource::exchange: the cheapest way below source.log2_error_q8, counted in
 /// source.ways[kWays] where that is not null.
-int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j) noexcept;
+int32_t cheapest_of_source(const PairSource& source, const Patch& i, const Patch& j,
+                           Side side) noexcept;
 
 /// log2 of a relative error as an estimate is written: 0.01 is -1701. 1e-6 <= error <= 1.
 inline constexpr int16_t kPercentError_q8 = -1701;

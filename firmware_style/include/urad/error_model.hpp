@@ -3,14 +3,14 @@
 //
 //   log2 error = bias + shift[class] + sum skip_k t_k + sum out_h sigma(bias_h + sum weight_hk t_k)
 //
-// with traits t in Q7.8 (cheapest.hpp). A network, because errors have several causes: the order of
-// a rule, an edge nearby, rounding; which of them rules is a bend that no sum of logarithms has.
+// with traits t in Q7.8 (cheapest.hpp); error_guess.hpp works it out. A network, because errors have
+// several causes: the order of a rule, an edge nearby, rounding; which of them rules is a bend that no
+// sum of logarithms has.
 //
 //   Width   |t| <= 24, |weight| <= 12, |bias| <= 300, at most 26 traits: sums below 2^31
 //   Cost    hidden (traits + 1) + traits products of 16 bits, hidden sigmoids
 #pragma once
 #include "urad/lambert.hpp"
-#include "urad/sigmoid.hpp"
 
 namespace urad {
 
@@ -56,31 +56,15 @@ struct PairTraits {
 inline constexpr int kErrorHidden = 16;
 inline constexpr int kErrorWeightLimit_q10 = 12 * 1024;
 
+/// Neurons with a greater output weight come first: fewer of them tell whether an error is low enough
+/// (error_within()). Weights of traits that the model does not have are 0.
 struct ErrorModel {
-  uint8_t traits;  ///< kPairTraits or kTraits
+  uint8_t traits;  ///< at most kPairTraits, or kTraits
   int16_t weight_q10[kErrorHidden][kTraits];
   int32_t hidden_bias_q18[kErrorHidden];
   int16_t out_q8[kErrorHidden], skip_q10[kTraits], bias_q8;
   int16_t shift_q8[kPairClasses];
 };
-
-/// log2 of the relative error, Q7.8.
-inline int32_t error_q8(const ErrorModel& model, const PairTraits& traits) noexcept {
-  constexpr int32_t kFlat_q11 = 32767;  // the sigmoid is flat beyond +-16
-  const auto sum_q18 = [&](const int16_t* weight, int32_t sum) {
-    return add_products(sum, weight, traits.log2_q8, model.traits);
-  };
-  int32_t error = model.bias_q8 + model.shift_q8[int(traits.pair_class)] +
-                  round_shift(sum_q18(model.skip_q10, 0), 10);
-  for (int h = 0; h < kErrorHidden; ++h) {
-    const int32_t z_q11 = round_shift(sum_q18(model.weight_q10[h], model.hidden_bias_q18[h]), 7);
-    const int32_t flat_q11 = z_q11 > kFlat_q11    ? kFlat_q11
-                             : z_q11 < -kFlat_q11 ? -kFlat_q11
-                                                  : z_q11;
-    error += round_shift(model.out_q8[h] * int32_t{sigmoid_uq15(int16_t(flat_q11))}, 15);
-  }
-  return error;
-}
 
 /// Whether moments say something of a pair. Beyond, the series of which the kernel has two terms
 /// diverges, and no network has been trained.

@@ -5,6 +5,7 @@
 // The exchange G = A_i F_ij = A_j F_ji is one integer per unordered pair: log2 G in Q7.24.
 // Reciprocity is exact on it.
 #pragma once
+#include "urad/clip.hpp"
 #include "urad/net.h"
 #include "urad/pair.hpp"
 #include "urad/source.h"
@@ -68,8 +69,10 @@ int32_t exchange_exact_q24(const urad_scene& scene, const Patch& i, const Patch&
 uint32_t form_factor_uq32(int32_t log2_exchange_q24, int32_t log2_area_q24) noexcept;
 
 struct PairSource;
-/// log2 G of a pair for a source that has a way of its own, as exchange_log2_q24().
-using PairExchange = int32_t (*)(const PairSource& source, const Patch& i, const Patch& j) noexcept;
+/// log2 G of a pair for a source that has a way of its own, as exchange_log2_q24(). side: what
+/// side_of_run() says of i and the surface of j, or both.
+using PairExchange = int32_t (*)(const PairSource& source, const Patch& i, const Patch& j,
+                                 Side side) noexcept;
 
 /// A source (source.h) that evaluates pairs, times the visible fraction where the scene is not
 /// convex: the exported one, or by rays.

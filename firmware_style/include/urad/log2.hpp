@@ -60,11 +60,17 @@ inline constexpr Knots kExp2 = make_exp2();  // 1028 bytes of ROM
 ///   chords next to k = 0 and 256, where the knot is exact               2.75e-6
 ///   rounding of knots, of the 15 fraction bits and of the result        0.12e-6
 ///   measured over a dense sweep: tests/log2_test.cpp
-/// Width: knot distance < 2^17, fraction < 2^15: one 32-bit product.
+/// Width: knot distance < 2^17, fraction < 2^15: one 32-bit product. 0 gives 0.
 constexpr int32_t log2_mantissa_q24(uint32_t m) noexcept {
   const uint32_t k = (m >> 23) & 255u, f_q15 = (m >> 8) & 0x7FFFu;
   const uint32_t y = kLog2.value[k];
   return int32_t(y + (((kLog2.value[k + 1] - y) * f_q15 + 0x4000u) >> 15));
+}
+
+/// 2^f for 0 <= f < 1, UQ0.24, as UQ2.30; see exp2_uq().
+constexpr uint32_t exp2_mantissa_uq30(uint32_t f_uq24) noexcept {
+  const uint32_t k = f_uq24 >> 16, f_uq16 = f_uq24 & 0xFFFFu, y = kExp2.value[k];
+  return y + ((((kExp2.value[k + 1] - y) >> 7) * f_uq16 + 0x100u) >> 9);
 }
 
 }  // namespace table
@@ -73,11 +79,16 @@ constexpr int32_t log2_mantissa_q24(uint32_t m) noexcept {
 /// <= 2.9e-6.
 constexpr int32_t log2_q24(uint32_t x) noexcept {
   const int n = top_bit(x);
-  return int32_t(uint32_t(n) << 24) + (x ? table::log2_mantissa_q24(x << (31 - n)) : 0);
+  return int32_t(uint32_t(n) << 24) + table::log2_mantissa_q24(x << (31 - n));
 }
 
 /// The same for 64 bits; all but the leading 32 are dropped (relative 2^-31).
+template <bool wide = kWideRegisters>
 constexpr int32_t log2_q24(uint64_t x) noexcept {
+  if (wide) {
+    const int n = top_bit(x);
+    return int32_t(uint32_t(n) << 24) + table::log2_mantissa_q24(uint32_t((x << (63 - n)) >> 32));
+  }
   const uint32_t high = uint32_t(x >> 32);
   if (high == 0) return log2_q24(uint32_t(x));
   const int n = top_bit(high);
@@ -95,11 +106,8 @@ constexpr uint32_t exp2_uq(int32_t x_q24, int fraction_bits) noexcept {
   const int e = int(shift_down(x_q24, 24)) + fraction_bits;
   if (e >= 32) return 0xFFFFFFFFu;
   if (e < -1) return 0;
-  const uint32_t f_uq24 = uint32_t(x_q24) & 0xFFFFFFu, k = f_uq24 >> 16, f_uq16 = f_uq24 & 0xFFFFu;
-  const uint32_t y = table::kExp2.value[k];
-  const uint32_t m_uq30 = y + ((((table::kExp2.value[k + 1] - y) >> 7) * f_uq16 + 0x100u) >> 9);
-  if (e == 31) return m_uq30 << 1;
-  if (e == 30) return m_uq30;
+  const uint32_t m_uq30 = table::exp2_mantissa_uq30(uint32_t(x_q24) & 0xFFFFFFu);
+  if (e >= 30) return m_uq30 << (e - 30);
   return (m_uq30 + (uint32_t{1} << (29 - e))) >> (30 - e);
 }
 

@@ -23,6 +23,14 @@ inline constexpr bool kLongMultiply = true;
 #define URAD_APART
 #endif
 
+// Where a register holds 64 bits, sums that could leave 32 need no care, and branches on signs cost more
+// than they save: the same integers in fewer steps.
+#if UINTPTR_MAX > 0xFFFFFFFF
+inline constexpr bool kWideRegisters = true;
+#else
+inline constexpr bool kWideRegisters = false;
+#endif
+
 /// What a caller has to see to: ranges that a comment promises. Builds with URAD_CHECKED=1 trap where
 /// one does not hold; all others know nothing of it.
 constexpr void expect(bool holds) noexcept {
@@ -36,7 +44,9 @@ constexpr int64_t shift_down(int64_t x, int n) noexcept { return x >> n; }
 
 /// Position of the highest set bit, 0 .. 31 (63); 0 for x = 0.
 constexpr int top_bit(uint32_t x) noexcept { return 31 - __builtin_clz(x | 1u); }
+template <bool wide = kWideRegisters>
 constexpr int top_bit(uint64_t x) noexcept {
+  if (wide) return 63 - __builtin_clzll(x | 1u);
   return x >> 32 ? 32 + top_bit(uint32_t(x >> 32)) : top_bit(uint32_t(x));
 }
 
@@ -44,16 +54,21 @@ constexpr int top_bit(uint64_t x) noexcept {
 constexpr uint32_t magnitude(int32_t x) noexcept { return x < 0 ? 0u - uint32_t(x) : uint32_t(x); }
 constexpr uint64_t magnitude(int64_t x) noexcept { return x < 0 ? 0u - uint64_t(x) : uint64_t(x); }
 
-/// x / 2^n to nearest. 1 <= n <= 31 (63 for 64 bits), any x.
-constexpr int32_t round_shift(int32_t x, int n) noexcept {
-  expect(n >= 1 && n <= 31);
-  const uint32_t y = (magnitude(x) + (uint32_t{1} << (n - 1))) >> n;
-  return x < 0 ? -int32_t(y) : int32_t(y);
-}
+/// x / 2^n to nearest. 1 <= n <= 31 and any x; for 64 bits n <= 62 and |x| below 2^63 - 2^(n-1).
+///   In wide registers floor((x + h) / 2h), h = 2^(n-1), one less in the numerator below 0
+template <bool wide = kWideRegisters>
 constexpr int64_t round_shift(int64_t x, int n) noexcept {
-  expect(n >= 1 && n <= 63);
+  expect(n >= 1 && n <= 62 && magnitude(x) < (uint64_t{1} << 63) - (uint64_t{1} << (n - 1)));
+  if (wide) return shift_down(x + (int64_t{1} << (n - 1)) + shift_down(x, 63), n);
   const uint64_t y = (magnitude(x) + (uint64_t{1} << (n - 1))) >> n;
   return x < 0 ? -int64_t(y) : int64_t(y);
+}
+template <bool wide = kWideRegisters>
+constexpr int32_t round_shift(int32_t x, int n) noexcept {
+  expect(n >= 1 && n <= 31);
+  if (wide) return int32_t(round_shift(int64_t{x}, n));
+  const uint32_t y = (magnitude(x) + (uint32_t{1} << (n - 1))) >> n;
+  return x < 0 ? -int32_t(y) : int32_t(y);
 }
 
 /// x y in 64 bits from four products of 16, for cores that have no other: the compiler's own is a
@@ -82,27 +97,32 @@ constexpr int64_t wide_mul(int32_t x, int32_t y) noexcept {
 }
 
 /// sum + x_0 y_0 + x_1 y_1 + ..., n terms that fit in 32 bits. On a Cortex-M0 seven instructions a
-/// term; nine and more inline.
+/// term; nine and more inline. Unrolled before it is seen that eight products go at a time, none do.
 template <class Factor>
 URAD_APART constexpr int32_t add_products(int32_t sum, const Factor* x, const int16_t* y,
                                           int n) noexcept {
+#pragma GCC unroll 1
   for (int k = 0; k < n; ++k) sum += x[k] * y[k];
   return sum;
 }
 
 /// x y / 2^n to nearest for 1 <= n <= 16, |y| < 2^(32-n) and results below 2^31: two 32-bit
 /// products, where 64 bits would call a helper on small chips.
+template <bool wide = kWideRegisters>
 constexpr int32_t mul_round(int32_t x, int32_t y, int n) noexcept {
   const uint32_t a = magnitude(x), b = magnitude(y), low = (uint32_t{1} << n) - 1;
   expect(n >= 1 && n <= 16 && b >> (32 - n) == 0 && (uint64_t{a} * b) >> n <= 0x7FFFFFFFu);
+  if (wide) return int32_t(round_shift(int64_t{x} * y, n));
   const uint32_t product = (a >> n) * b + (((a & low) * b + (uint32_t{1} << (n - 1))) >> n);
   return (x < 0) != (y < 0) ? -int32_t(product) : int32_t(product);
 }
 
 /// The same for 17 <= n <= 47 and 0 <= y <= 2^16.
+template <bool wide = kWideRegisters>
 constexpr int32_t mul_shift(int32_t x, uint32_t y, int n) noexcept {
   const uint32_t a = magnitude(x);
   expect(n >= 17 && n <= 47 && y <= 65536u);
+  if (wide) return int32_t(round_shift(int64_t{x} * int64_t{y}, n));
   const uint32_t high = (a >> 16) * y + (((a & 0xFFFFu) * y) >> 16);  // x y / 2^16, at most 2^31
   const uint32_t product = (high + (uint32_t{1} << (n - 17))) >> (n - 16);
   return x < 0 ? -int32_t(product) : int32_t(product);

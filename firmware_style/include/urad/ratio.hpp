@@ -26,9 +26,11 @@ struct Scaled {
   uint32_t mantissa;
   int exponent;
 };
+template <bool wide = kWideRegisters>
 constexpr Scaled scaled(uint64_t x) noexcept {
   if (x == 0) return {0, 0};
   const int n = top_bit(x);
+  if (wide) return {uint32_t((x << (63 - n)) >> 32), n - 31};
   return n > 31 ? Scaled{uint32_t(x >> (n - 31)), n - 31} : Scaled{uint32_t(x << (31 - n)), n - 31};
 }
 

@@ -37,6 +37,15 @@ constexpr int sign_of_dot(const urad_point& n, const urad_point& r) noexcept {
   return sum < 0 ? -1 : sum > 0;
 }
 
+/// Along an axis, distances from a plane need no product and are exact.
+constexpr bool along_an_axis(const urad_point& normal_q30) noexcept {
+  constexpr uint32_t kOne_q30 = uint32_t{1} << 30;
+  const urad_point& n = normal_q30;
+  return (!n.x && !n.y && magnitude(n.z) == kOne_q30) ||
+         (!n.x && !n.z && magnitude(n.y) == kOne_q30) ||
+         (!n.y && !n.z && magnitude(n.x) == kOne_q30);
+}
+
 /// Signed distance of `x` from the plane through `on` with this normal, in scene units, rounded.
 /// Along an axis a difference says it.
 constexpr int32_t plane_distance(const urad_point& normal_q30, const urad_point& on,

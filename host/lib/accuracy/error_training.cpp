@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "network/random.hpp"
@@ -85,16 +88,22 @@ urad::ErrorModel rounded(const Layers& net, const Scaling& scaling, int traits) 
     bias -= weight * scaling.mean[k];
   }
   model.bias_q8 = q8(bias);
+  std::array<int, kErrorHidden> order;
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::abs(q8(net.out[a])) > std::abs(q8(net.out[b]));
+  });
   for (int h = 0; h < kErrorHidden; ++h) {
-    double hidden_bias = net.hidden(traits, h);
+    const int from = order[std::size_t(h)];
+    double hidden_bias = net.hidden(traits, from);
     for (int k = 0; k < traits; ++k) {
-      const double weight = net.hidden(k, h) / scaling.spread[k];
+      const double weight = net.hidden(k, from) / scaling.spread[k];
       model.weight_q10[h][k] = q10(weight);
       hidden_bias -= weight * scaling.mean[k];
     }
     model.hidden_bias_q18[h] =
         std::int32_t(std::lround(std::clamp(hidden_bias, -300., 300.) * 0x1p18));
-    model.out_q8[h] = q8(net.out[h]);
+    model.out_q8[h] = q8(net.out[from]);
   }
   return model;
 }

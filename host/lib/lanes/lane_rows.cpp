@@ -47,17 +47,17 @@ struct Worker {
     factor(j, i) = urad::form_factor_uq32(log2_g_q24, of(PatchLanes::log2_area, j));
   }
 
-  std::int32_t exchange_q24(const urad::Patch& i, const urad::Patch& j) {
-    if (pairs.exchange) return pairs.exchange(pairs, i, j);
+  std::int32_t exchange_q24(const urad::Patch& i, const urad::Patch& j, urad::Side side) {
+    if (pairs.exchange) return pairs.exchange(pairs, i, j, side);
     if (pairs.points) return urad::exchange_exact_q24(scene(), i, j, pairs.points, &counters);
     return urad::exchange_log2_q24(scene(), i, j, pairs.kernel, pairs.net, 0, &counters);
   }
 
-  void one_by_one(const urad::Patch& i, std::uint16_t first, std::uint16_t count) {
+  void one_by_one(const urad::Patch& i, std::uint16_t first, std::uint16_t count, urad::Side side) {
     urad::Patch j = urad::patch_at(scene(), first);
     for (std::uint16_t k = 0; k < count; ++k) {
       if (k) urad::patch_advance(&j);
-      store(i.index, j.index, exchange_q24(i, j));
+      store(i.index, j.index, exchange_q24(i, j, side));
     }
   }
 
@@ -105,7 +105,7 @@ struct Worker {
       } else if (side == urad::Side::front && lanes_know) {
         in_lanes(i, first, count);
       } else {
-        one_by_one(i, first, count);
+        one_by_one(i, first, count, side);
       }
     }
   }
