@@ -32,9 +32,10 @@ class Mutant:
 
 
 def _blank(text: str) -> str:
-    """Without comments, strings, preprocessor lines, assertions of types and promises to sanitizers."""
+    """Without comments, strings, preprocessor lines, assertions of types, promises to sanitizers and sizes of arrays that
+    are declared: nobody looks into more room."""
     pattern = (r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|^#[^\n]*|\b(?:static_assert|expect)\((?:[^()]|\([^()]*\))*\);|"
-               r"\btemplate <[^\n]*>|^using [^\n]*")
+               r"\btemplate <[^\n]*>|^using [^\n]*|^ *[\w:]+ (?:\w+(?:\[\d+\])+(?:, )?)+;")
     return re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S | re.M)
 
 

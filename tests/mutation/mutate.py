@@ -2,10 +2,12 @@
 """mutate.py BUILD WORK OUT.md [--seed N] [--each N] [--minutes M] [--jobs J] [FILE...] -- changes one operator or constant of the engine at a time
 and runs the tests that kernels.txt names for that file; a mutant that they let pass is a survivor.
 
-BUILD is a release build whose test objects are linked against the engine as a shared library, so that a mutant costs one
-compilation. Of every file, N mutants are drawn with a printed seed (--each 0: all), and taken in turn, one of every file
-after another; when the minutes are up, those left are not counted. Survivors must be in survivors.txt, with the reason why
-nothing can tell them from the original; the others are printed.
+BUILD is a release build whose test objects are linked against the engine as a shared library, so that a mutant costs its
+compilation and the quickest test that fails. As in the sanitized half of `./run test`, undefined arithmetic and indices
+beyond an array trap. A mutant that the compiler makes the same object code of, byte for byte, is the original and does not
+count. Of every file, N mutants are drawn with a printed seed (--each 0: all), and taken in turn, one of every file after
+another; when the minutes are up, those left are not counted. Survivors must be in survivors.txt, with the reason why nothing
+can tell them from the original; the others are printed.
 """
 import argparse
 import os
@@ -23,35 +25,59 @@ from mutants import mutants_of
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 ENGINE = ROOT / "firmware_style"
-COMPILE = ("g++ -std=c++17 -O1 -w -fPIC -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -nostdinc++ "
+COMPILE = ("g++ -std=c++17 -O2 -w -fPIC -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -nostdinc++ "
            "-ffp-contract=off -DURAD_CHECKED=1 -c").split()
+TRAPS = "-fsanitize=undefined -fno-sanitize=vptr,null,alignment,nonnull-attribute -fsanitize-undefined-trap-on-error".split()
 SECONDS = 60  # of one test file; beyond, the mutant hangs
+SAME = "same object code"  # instead of the test that killed it
 DATA = {"cheapest_models.hpp"}  # tables of a fit: no constant is more right than its neighbour
 
 
 def table(name: str) -> list[list[str]]:
-    rows = (line.split(" # ")[0] for line in (HERE / name).read_text().splitlines())
+    rows = (line.split(" # ")[0] for line in (HERE / name).read_text().replace("\\\n", " ").splitlines())
     return [[cell.strip() for cell in row.split(" | ")] for row in rows if row.strip() and row[0] != "#"]
 
 
-def compile_source(source: Path, out: Path, include: list[Path]) -> bool:
-    options = [option for folder in include for option in ("-I", folder)]
-    return subprocess.run([*COMPILE, *options, source, "-o", out], capture_output=True).returncode == 0
+def compile_source(source: Path, out: Path, *options) -> bool:
+    return subprocess.run([*COMPILE, *options, "-I", ENGINE / "include", source, "-o", out], capture_output=True).returncode == 0
+
+
+def engine_objects(folder: Path, *options) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        done = list(pool.map(lambda s: compile_source(s, folder / (s.stem + ".o"), *options),
+                             sorted((ENGINE / "src").glob("*.cpp"))))
+    if not all(done):
+        raise SystemExit("the engine does not compile")
+    return folder
+
+
+def compile_test(test: str, out: Path, *options) -> bool:
+    """With all its inline functions: those that no test calls are not the same."""
+    return subprocess.run(["g++", "-std=c++20", "-O2", "-w", "-fkeep-inline-functions", *options, "-I", ENGINE / "include",
+                           "-c", ROOT / "tests" / (test + ".cpp"), "-o", out], capture_output=True).returncode == 0
+
+
+def failure(test: str, command: list, folder: Path) -> str | None:
+    """The test's name where its program fails, with the engine in that folder."""
+    try:
+        run = subprocess.run(command, env={**os.environ, "LD_LIBRARY_PATH": str(folder)}, capture_output=True,
+                             timeout=SECONDS, cwd=folder)
+    except subprocess.TimeoutExpired:
+        return test + " (hangs)"
+    return test if run.returncode != 0 else None
 
 
 class Bench:
     """The engine as objects, and the test program that loads them as a library."""
 
-    def __init__(self, build: Path, work: Path, tests: set[str]):
+    def __init__(self, build: Path, work: Path, tests: set[str], header_tests: set[str]):
         self.work, self.build = work, build
-        self.objects = work / "objects"
-        self.objects.mkdir(parents=True, exist_ok=True)
-        include = [ENGINE / "include"]
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            done = list(pool.map(lambda s: compile_source(s, self.objects / (s.stem + ".o"), include),
-                                 sorted((ENGINE / "src").glob("*.cpp"))))
-        if not all(done):
-            raise SystemExit("the engine does not compile")
+        self.plain, self.objects = engine_objects(work / "plain"), engine_objects(work / "objects", *TRAPS)
+        (work / "headers").mkdir(exist_ok=True)
+        for test in header_tests:
+            compile_test(test, work / "headers" / (test + ".o"))
+        subprocess.run(["g++", "-std=c++20", "-c", ROOT / "tests/main.cpp", "-o", work / "headers/main.o"], check=True)
         (work / "original").mkdir(exist_ok=True)
         self.link(work / "original", {})
         command = subprocess.run(["ninja", "-C", build, "-t", "commands", "tests/urad_tests"], capture_output=True,
@@ -67,16 +93,11 @@ class Bench:
                        check=True)
 
     def killed_by(self, folder: Path, tests: list[str]) -> str | None:
-        """The first of the test files that fails."""
+        """The first of the test files that fails; "a,b" are run together."""
         for test in tests:
-            try:
-                run = subprocess.run([self.work / "tests", f"--source-file=*/{test}.cpp", "--abort-after=1", "--minimal"],
-                                     env={**os.environ, "LD_LIBRARY_PATH": str(folder)}, capture_output=True, text=True,
-                                     timeout=SECONDS, cwd=folder, errors="replace")
-            except subprocess.TimeoutExpired:
-                return test + " (hangs)"
-            if run.returncode != 0:
-                return test
+            files = ",".join(f"*/{file}.cpp" for file in test.split(","))
+            if killer := failure(test, [self.work / "tests", f"--source-file={files}", "--abort-after=1", "--minimal"], folder):
+                return killer
         return None
 
     def dependents(self, header: str) -> list[Path]:
@@ -101,18 +122,20 @@ class Bench:
         if path.parent.name == "urad":
             return self.run_header(mutant, path, folder, tests)
         changed.write_text(mutant.apply(path.read_text()))
+        sources = [path] if path.suffix == ".cpp" else self.dependents(mutant.file)
+        for beside in [*sources, *(ENGINE / "src").glob("*.hpp")]:  # a quoted include looks beside the source first
+            if beside != path:
+                shutil.copy(beside, folder)
         replaced = {}
-        for source in [path] if path.suffix == ".cpp" else self.dependents(mutant.file):
-            copy = folder / source.name
-            if source != path:
-                shutil.copy(source, copy)
-            for header in (ENGINE / "src").glob("*.hpp"):  # a quoted include looks beside the source first
-                if header.name != mutant.file and not (folder / header.name).exists():
-                    shutil.copy(header, folder / header.name)
-            target = folder / (source.stem + ".o")
-            if not compile_source(copy, target, [ENGINE / "include"]):
+        for name in (source.name for source in sources):
+            target = folder / Path(name).with_suffix(".o")
+            if not compile_source(folder / name, target):
                 return ""
-            replaced[target.name] = target
+            if target.read_bytes() != (self.plain / target.name).read_bytes():
+                compile_source(folder / name, target, *TRAPS)
+                replaced[target.name] = target
+        if not replaced:
+            return SAME
         self.link(folder, replaced)
         return self.killed_by(folder, tests)
 
@@ -120,19 +143,19 @@ class Bench:
         """Headers that hold a whole kernel: the test file itself is compiled with the mutant."""
         (folder / "urad").mkdir()
         (folder / "urad" / mutant.file).write_text(mutant.apply(path.read_text()))
+        different = False
         for test in tests:
-            program = folder / test
-            compiled = subprocess.run(["g++", "-std=c++20", "-O1", "-w", "-I", folder, "-I", ENGINE / "include",
-                                       ROOT / "tests" / (test + ".cpp"), ROOT / "tests/main.cpp", "-o", program],
-                                      capture_output=True)
-            if compiled.returncode != 0:
+            plain, trapping, program = (folder / (test + end) for end in (".o", "_traps.o", ""))
+            if not compile_test(test, plain, "-I", folder):
                 return ""
-            try:
-                if subprocess.run([program, "--abort-after=1"], capture_output=True, timeout=SECONDS).returncode != 0:
-                    return test
-            except subprocess.TimeoutExpired:
-                return test + " (hangs)"
-        return None
+            if plain.read_bytes() == (self.work / "headers" / plain.name).read_bytes():
+                continue
+            different = True
+            compile_test(test, trapping, "-I", folder, *TRAPS)
+            subprocess.run(["g++", trapping, self.work / "headers/main.o", "-o", program], check=True)
+            if killer := failure(test, [program, "--abort-after=1", "--minimal"], folder):
+                return killer
+        return None if different else SAME
 
 
 def main():
@@ -147,17 +170,26 @@ def main():
     parser.add_argument("files", nargs="*")
     options = parser.parse_intermixed_args()
     tests = {row[0]: row[1].split() for row in table("kernels.txt")}
+    first = tests.pop("first")
     excused = {(row[0], row[1], row[2]): row[3] for row in table("survivors.txt")}
     sources = {p.name for p in [*(ENGINE / "src").glob("*.[ch]pp")] if mutants_of(p)}
     if unknown := sources - set(tests) - DATA:
         raise SystemExit(f"kernels.txt names no tests of {', '.join(sorted(unknown))}")
     if options.files:
         tests = {file: tests[file] for file in options.files}
-    linked = {t for file, names in tests.items() if not (ENGINE / "include/urad" / file).exists() for t in names}
-    bench = Bench(options.build.resolve(), options.work.resolve(), linked)
+    alone_files = {file for file in tests if (ENGINE / "include/urad" / file).exists()}
+    linked, alone = ({t for file, names in tests.items() if (file in alone_files) == header for t in names}
+                     for header in (False, True))
+    linked |= set(first)
+    bench = Bench(options.build.resolve(), options.work.resolve(), linked, alone)
+    seconds = {}
     for test in sorted(linked):
+        start = time.monotonic()
         if bench.killed_by(bench.work / "original", [test]):
             raise SystemExit(f"{test} fails with the engine as it is")
+        seconds[test] = time.monotonic() - start
+    for file in set(tests) - alone_files:
+        tests[file] = [",".join(first), *sorted(set(tests[file]) - set(first), key=lambda test: seconds[test])]
     chosen, all_count = [], 0
     for file in sorted(tests):
         path = next(p for p in (ENGINE / "src" / file, ENGINE / "include/urad" / file) if p.exists())
@@ -188,12 +220,13 @@ def main():
 
 
 def write(options, all_count, results, excused):
-    viable = [(m, k) for m, k in results if k != ""]
+    viable = [(m, k) for m, k in results if k not in ("", SAME)]
     reason = {m: excused.get((m.file, m.text, f"{m.old} -> {m.new}")) for m, k in viable if k is None}
     files = f" of {', '.join(options.files)}" if options.files else ""
+    not_compiled, same = (sum(k == what for _, k in results) for what in ("", SAME))
     rows = [f"Seed {options.seed}, {'all' if not options.each else f'up to {options.each}'} mutants a file{files}, "
-            f"{options.minutes:g} minutes at most: "
-            f"{len(results)} of {all_count:,}; {len(results) - len(viable)} do not compile and do not count.", "",
+            f"{options.minutes:g} minutes at most: {len(results)} of {all_count:,}. {not_compiled} do not compile, "
+            f"{same} have the object code of the original; neither count.", "",
             "| kind | mutants | killed | equivalent | survive | killed of those that differ | goal |",
             "| --- | --: | --: | --: | --: | --: | --: |"]
     for kind in ("arithmetic", "comparison", "constant", "all"):
