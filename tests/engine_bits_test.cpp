@@ -185,7 +185,7 @@ TEST_CASE("a solve after every few shots, with lamps that change and walls that 
     REQUIRE(urad::radiosity_set_emission(&solve.state, 5, dark) == urad::Status::ok);
     shots(32);
     constexpr std::uint16_t kPaint[3][3] = {{9000, 0, 20000}, {3, 30000, 9000}, {0, 0, 0}};
-    for (const size_t wall : {1, 0, 2}) {
+    for (const size_t wall : {1u, 0u, 2u}) {
       REQUIRE(urad::radiosity_set_reflectance(&solve.state, &room.material[wall], kPaint[wall]) ==
               urad::Status::ok);
       crc.word(light(solve).value());

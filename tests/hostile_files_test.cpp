@@ -183,6 +183,7 @@ TEST_CASE("a full disk: no half-written result, one sentence") {
       const rlimit limit{bytes, bytes};     // the sentence that it says fits in
       setrlimit(RLIMIT_FSIZE, &limit);
       setenv("GCOV_ERROR_FILE", "/dev/null", 1);  // counts of branches do not fit either
+      setenv("LLVM_PROFILE_FILE", "/dev/null", 1);
     });
     check_refused(program, out);
   }

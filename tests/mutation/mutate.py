@@ -28,7 +28,7 @@ ENGINE = ROOT / "firmware_style"
 COMPILE = ("g++ -std=c++17 -O2 -w -fPIC -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -nostdinc++ "
            "-ffp-contract=off -DURAD_CHECKED=1 -c").split()
 TRAPS = "-fsanitize=undefined -fno-sanitize=vptr,null,alignment,nonnull-attribute -fsanitize-undefined-trap-on-error".split()
-SECONDS = 60  # of one test file; beyond, the mutant hangs
+SECONDS = 180  # of one test file, in which a busy machine runs it; beyond, the mutant hangs
 SAME = "same object code"  # instead of the test that killed it
 DATA = {"cheapest_models.hpp"}  # tables of a fit: no constant is more right than its neighbour
 
@@ -182,12 +182,15 @@ def main():
                      for header in (False, True))
     linked |= set(first)
     bench = Bench(options.build.resolve(), options.work.resolve(), linked, alone)
-    seconds = {}
-    for test in sorted(linked):
+
+    def seconds_of(test: str) -> float:
         start = time.monotonic()
         if bench.killed_by(bench.work / "original", [test]):
             raise SystemExit(f"{test} fails with the engine as it is")
-        seconds[test] = time.monotonic() - start
+        return time.monotonic() - start
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        seconds = dict(zip(sorted(linked), pool.map(seconds_of, sorted(linked))))
     for file in set(tests) - alone_files:
         tests[file] = [",".join(first), *sorted(set(tests[file]) - set(first), key=lambda test: seconds[test])]
     chosen, all_count = [], 0

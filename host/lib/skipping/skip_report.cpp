@@ -22,13 +22,16 @@ constexpr const char* kBoard = "microbit";
 constexpr int kSettled = 6;  // shots a patch until nothing changes that a table shows
 
 std::map<std::string, double> read_counts(const std::string& path) {
+  const Error malformed(path + ": not a table of counted instructions; ./run skipping writes one");
   const auto json = nlohmann::json::parse(read_file(path), nullptr, false);
-  if (json.is_discarded() || !json.is_object() || !json.contains(kBoard)) {
-    throw Error(path + ": not a table of counted instructions; ./run skipping writes one");
-  }
+  if (json.is_discarded() || !json.is_object() || !json.contains(kBoard)) throw malformed;
   std::map<std::string, double> counts;
-  for (const auto& [what, value] : json.at(kBoard).items())
-    counts[what] = value.at("mean").get<double>();
+  for (const auto& [what, value] : json.at(kBoard).items()) {
+    if (!value.is_object() || !value.contains("mean") || !value["mean"].is_number())
+      throw malformed;
+    counts[what] = value["mean"].get<double>();
+  }
+  if (!counts.contains("on")) throw malformed;
   return counts;
 }
 
