@@ -15,9 +15,8 @@
 #include "method/engine_source.hpp"
 #include "radiosity_scene.hpp"
 #include "scene/builtin.hpp"
-#include "solve/exported_visibility.hpp"
-#include "urad/hemicube.hpp"
 #include "urad/move.hpp"
+#include "urad/urad.h"
 #include "weights/general.h"
 
 namespace {
@@ -229,4 +228,23 @@ TEST_CASE("which pairs a moving box touches, and the light without them") {
     add(&crc, solve.ledger);
   }
   recorded.check("moves", crc);
+}
+
+TEST_CASE("CRCs of scenes with repair and without, of grids and polygon lists") {
+  Recorded recorded;
+  const auto check = [&](const std::string& name, const urad_scene& scene) {
+    std::uint32_t crc32[2];
+    REQUIRE(urad_scene_crc32(&scene, crc32) == URAD_OK);
+    urad::Crc32 both;
+    both.word(crc32[0]), both.word(crc32[1]);
+    recorded.check(name, both);
+  };
+  for (const char* name : {"cube7", "louvre"}) {
+    host::FixedScene scene(host::load_scene(name, {1, 0}));
+    check(fmt::format("{} crc32", name), scene.pod());
+    scene.set_scale(std::vector<double>(scene.pod().patch_count, 0.75));
+    check(fmt::format("{} crc32 repaired", name), scene.pod());
+  }
+  std::mt19937 random(kSeed);
+  check("random pair crc32", random_pair(&random).pod());
 }

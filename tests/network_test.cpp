@@ -109,6 +109,28 @@ TEST_CASE("sizes, null pointers and shifts out of range are bad nets") {
   CHECK(bad([](OwnNet& n) { n.net.output_rescale.shift = 16; }));
 }
 
+TEST_CASE(
+    "with a checksum that is right: the least net is good, and one step past each limit is not") {
+  const auto check = [](auto&& change) {
+    OwnNet own(urad_general);
+    change(own);
+    own.net.crc32 = urad::network_crc32(own.net);
+    return urad::network_check(&own.net) == urad::Status::ok;
+  };
+  CHECK(check([](OwnNet&) {}));
+  CHECK(check([](OwnNet& n) { n.net.inputs = 1; }));
+  CHECK(check([](OwnNet& n) { n.net.hidden = 1; }));
+  CHECK(check([](OwnNet& n) { n.net.inputs = n.net.hidden = 1; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.net.inputs = 0; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.net.hidden = 0; }));
+  CHECK_FALSE(check([](OwnNet& n) { ++n.net.abi; }));
+  CHECK_FALSE(check([](OwnNet& n) { --n.net.abi; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.net.reserved = 1; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.net.flags = 0x8000; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.hidden_rescale[0].shift = 0; }));
+  CHECK_FALSE(check([](OwnNet& n) { n.hidden_rescale[0].shift = 48; }));
+}
+
 TEST_CASE("an accumulator that could overflow is refused, whatever the checksum says") {
   OwnNet own(urad_general);
   own.hidden_bias[0] = INT32_MIN;
