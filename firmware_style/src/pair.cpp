@@ -29,7 +29,7 @@ constexpr uint32_t square_high(int32_t x) noexcept {
 }
 
 /// M v / tr M. |M v| <= |v| <= 1, and so is every partial sum times sqrt 2.
-Vec15 spread_times(const urad_shape& shape, const Vec15& v) noexcept {
+URAD_TOGETHER Vec15 spread_times(const urad_shape& shape, const Vec15& v) noexcept {
   const int16_t* m = shape.spread_q15;
   return {round_shift(m[0] * v.x + m[3] * v.y + m[4] * v.z, 15),
           round_shift(m[3] * v.x + m[1] * v.y + m[5] * v.z, 15),
@@ -46,9 +46,9 @@ constexpr uint32_t limited(uint32_t x_uq22) noexcept {
 }
 
 /// facing: the sign of m.w; log2_cosine_other: log2 |m.w|.
-void look(const urad_shape& shape, int32_t log2_distance2_q24, const Vec15& w, const Vec15& m,
-          int facing, int32_t log2_cosine_q24, int32_t log2_cosine_other_q24,
-          PairSide* side) noexcept {
+URAD_TOGETHER void look(const urad_shape& shape, int32_t log2_distance2_q24, const Vec15& w,
+                        const Vec15& m, int facing, int32_t log2_cosine_q24,
+                        int32_t log2_cosine_other_q24, PairSide* side) noexcept {
   const int32_t log2_size_q24 = shape.log2_spread_q24 - log2_distance2_q24;
   const Vec15 mw = spread_times(shape, w);
   const int32_t c_q15 = round_shift(dot_q30(mw, m), 15);

@@ -71,21 +71,21 @@ class Guess {
 
   int32_t linear_q8() const noexcept { return linear_q8_; }
 
-  /// Output weights of four neurons.
-  Ints out_q8(int h) const noexcept {
-    const int16_t* const out = model_.out_q8 + h;
-    return Ints{out[0], out[1], out[2], out[3]};
+  /// Output weights of four neurons, each twice.
+  Shorts out_q8(int h) const noexcept {
+    const Shorts out = shorts_at(model_.out_q8 + (h & 8));
+    return h & 4 ? __builtin_shufflevector(out, out, 4, 4, 5, 5, 6, 6, 7, 7)
+                 : __builtin_shufflevector(out, out, 0, 0, 1, 1, 2, 2, 3, 3);
   }
 
-  /// What four neurons add.
-  Ints neurons_q8(int h) const noexcept {
+  /// What four neurons with these output weights add.
+  Ints neurons_q8(int h, Shorts out) const noexcept {
     const auto& weight = model_.weight_q10;
     const Ints z_q18 =
         Ints(shorts_at(model_.hidden_bias_q18 + h)) +
         totals(sums(weight[h]), sums(weight[h + 1]), sums(weight[h + 2]), sums(weight[h + 3]));
     const Ints half_q15 = half_sigmoid_q15(rounded(z_q18, 7));
-    const Ints out = out_q8(h) & 0xFFFF;
-    return rounded(products(Shorts(out | out << 16), Shorts((half_q15 << 16) | 16384)), 15);
+    return rounded(products(out, Shorts((half_q15 << 16) | 16384)), 15);
   }
 
  private:
@@ -100,14 +100,14 @@ class Guess {
 
   const ErrorModel& model_;
   bool many_;
-  Shorts trait_[4];
+  Shorts trait_[4] = {};
   int32_t linear_q8_;
 };
 
 inline int32_t error_q8(const ErrorModel& model, const PairTraits& traits) noexcept {
   const Guess guess(model, traits);
-  Ints added = guess.neurons_q8(0);
-  for (int h = 4; h < kErrorHidden; h += 4) added += guess.neurons_q8(h);
+  Ints added = {0, 0, 0, 0};
+  for (int h = 0; h < kErrorHidden; h += 4) added += guess.neurons_q8(h, guess.out_q8(h));
   return guess.linear_q8() + total(added);
 }
 
@@ -115,14 +115,17 @@ inline bool error_within(const ErrorModel& model, const PairTraits& traits,
                          int32_t most_q8) noexcept {
   const Guess guess(model, traits);
   Ints falls = {0, 0, 0, 0}, rises = falls;
-  for (int h = 0; h < kErrorHidden; h += 4) {
-    const Ints out = guess.out_q8(h), fall = out & (out >> 31);
-    falls += fall;
-    rises += out - fall;
+  constexpr Shorts ones = {1, 1, 1, 1, 1, 1, 1, 1};
+  for (int h = 0; h < kErrorHidden; h += 8) {
+    const Shorts out = shorts_at(model.out_q8 + h), fall = out & (out >> 15);
+    falls += products(fall, ones);
+    rises += products(out - fall, ones);
   }
   int32_t low = guess.linear_q8() + total(falls), high = guess.linear_q8() + total(rises);
   for (int h = 0; low <= most_q8 && high > most_q8; h += 4) {
-    const Ints out = guess.out_q8(h), fall = out & (out >> 31), added = guess.neurons_q8(h);
+    const Shorts twice = guess.out_q8(h);
+    const Ints out = Ints(twice) >> 16, fall = out & (out >> 31);
+    const Ints added = guess.neurons_q8(h, twice);
     low += total(added - fall);
     high += total(added - (out - fall));
   }

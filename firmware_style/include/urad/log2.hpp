@@ -108,7 +108,7 @@ constexpr uint32_t exp2_uq(int32_t x_q24, int fraction_bits) noexcept {
   if (e < -1) return 0;
   const uint32_t m_uq30 = table::exp2_mantissa_uq30(uint32_t(x_q24) & 0xFFFFFFu);
   if (e >= 30) return m_uq30 << (e - 30);
-  return (m_uq30 + (uint32_t{1} << (29 - e))) >> (30 - e);
+  return ((m_uq30 >> (29 - e)) + 1) >> 1;
 }
 
 /// 1 / sqrt(x) for x >= 1, times 2^fraction_bits, rounded: three look-ups of the tables above and

@@ -24,11 +24,14 @@ inline constexpr bool kLongMultiply = true;
 #endif
 
 // Where a register holds 64 bits, sums that could leave 32 need no care, and branches on signs cost more
-// than they save: the same integers in fewer steps.
+// than they save: the same integers in fewer steps. What calls itself URAD_TOGETHER is part of its
+// callers there.
 #if UINTPTR_MAX > 0xFFFFFFFF
 inline constexpr bool kWideRegisters = true;
+#define URAD_TOGETHER [[gnu::always_inline]] inline
 #else
 inline constexpr bool kWideRegisters = false;
+#define URAD_TOGETHER
 #endif
 
 /// What a caller has to see to: ranges that a comment promises. Builds with URAD_CHECKED=1 trap where
