@@ -10,33 +10,33 @@ inline constexpr std::array<RowCost, 13> kRowCosts = {
     // 206 rows, worst scene off by 8.0 %
     row_cost("hemicube32", {{WorkTerm::same, 16171}, {WorkTerm::cells, 255.53}, {WorkTerm::walks, 43106}, {WorkTerm::drawn, 2614.4}}),
     // 120 rows, worst scene off by 5.6 %
-    row_cost("hemicube32_convex", {{WorkTerm::row, 4.3703e+05}, {WorkTerm::evaluated, 12273}}),
+    row_cost("hemicube32_convex", {{WorkTerm::runs, 72838}, {WorkTerm::evaluated, 12273}}),
     // 206 rows, worst scene off by 6.5 %
     row_cost("hemicube64", {{WorkTerm::same, 18635}, {WorkTerm::cells, 224.02}, {WorkTerm::walks, 47693}, {WorkTerm::drawn, 2605.9}}),
     // 120 rows, worst scene off by 4.9 %
-    row_cost("hemicube64_convex", {{WorkTerm::runs, 1.68e+05}, {WorkTerm::evaluated, 13581}}),
+    row_cost("hemicube64_convex", {{WorkTerm::row, 1.008e+06}, {WorkTerm::evaluated, 13581}}),
     // 103 rows, worst scene off by 3.4 %
-    row_cost("hybrid32", {{WorkTerm::runs, 1.3387e+05}, {WorkTerm::same, 5228.9}, {WorkTerm::facing, 35425}, {WorkTerm::behind, 10259}, {WorkTerm::clipped, 5548.1}, {WorkTerm::sums, 8892.1}, {WorkTerm::networks, 11144}, {WorkTerm::kept, 93707}, {WorkTerm::cells, 227.96}, {WorkTerm::drawn, 3387.1}}),
+    row_cost("hybrid32", {{WorkTerm::runs, 1.3383e+05}, {WorkTerm::same, 5251.5}, {WorkTerm::facing, 34908}, {WorkTerm::behind, 10433}, {WorkTerm::clipped, 5078.6}, {WorkTerm::sums, 8965.4}, {WorkTerm::networks, 11048}, {WorkTerm::kept, 93900}, {WorkTerm::cells, 228.04}, {WorkTerm::drawn, 3364.6}}),
     // 120 rows, worst scene off by 4.3 %
-    row_cost("hybrid32_convex", {{WorkTerm::runs, 59129}, {WorkTerm::same, 1763.4}, {WorkTerm::evaluated, 14642}, {WorkTerm::sums, 9793.3}, {WorkTerm::networks, 6537.8}}),
+    row_cost("hybrid32_convex", {{WorkTerm::row, 3.5446e+05}, {WorkTerm::same, 1773}, {WorkTerm::evaluated, 14608}, {WorkTerm::sums, 9866.6}, {WorkTerm::networks, 6031.7}}),
     // 103 rows, worst scene off by 1.6 %
-    row_cost("hybrid64", {{WorkTerm::runs, 1.0392e+05}, {WorkTerm::same, 1023.5}, {WorkTerm::facing, 43901}, {WorkTerm::clipped, 13831}, {WorkTerm::sums, 8876.3}, {WorkTerm::networks, 18364}, {WorkTerm::spared, 997.02}, {WorkTerm::kept, 84751}, {WorkTerm::cells, 206.34}, {WorkTerm::drawn, 3709.3}}),
+    row_cost("hybrid64", {{WorkTerm::runs, 1.0382e+05}, {WorkTerm::same, 1048.6}, {WorkTerm::facing, 43456}, {WorkTerm::evaluated, 73741}, {WorkTerm::clipped, 13505}, {WorkTerm::sums, 8949.5}, {WorkTerm::networks, 18250}, {WorkTerm::spared, 989.09}, {WorkTerm::kept, 84906}, {WorkTerm::cells, 206.4}}),
     // 120 rows, worst scene off by 3.6 %
-    row_cost("hybrid64_convex", {{WorkTerm::runs, 1.4555e+05}, {WorkTerm::same, 2269.3}, {WorkTerm::evaluated, 16066}, {WorkTerm::sums, 9787.7}, {WorkTerm::networks, 7759.8}}),
+    row_cost("hybrid64_convex", {{WorkTerm::row, 8.7304e+05}, {WorkTerm::same, 2283.3}, {WorkTerm::evaluated, 16031}, {WorkTerm::sums, 9861.5}, {WorkTerm::networks, 7247.9}}),
     // 223 rows, worst scene off by 2.7 %
-    row_cost("lambert1", {{WorkTerm::runs, 6085.2}, {WorkTerm::facing, 2627.3}, {WorkTerm::evaluated, 4540.6}, {WorkTerm::sums, 16374}, {WorkTerm::rays, 601.33}, {WorkTerm::lit, 533.13}, {WorkTerm::ray_tests, 17.46}, {WorkTerm::kept, 15322}, {WorkTerm::rejected, 215.19}}),
+    row_cost("lambert1", {{WorkTerm::runs, 5839.6}, {WorkTerm::facing, 2214.9}, {WorkTerm::evaluated, 4131.5}, {WorkTerm::sums, 16463}, {WorkTerm::rays, 593.1}, {WorkTerm::lit, 535.14}, {WorkTerm::ray_tests, 24.047}, {WorkTerm::kept, 15194}, {WorkTerm::rejected, 216.73}}),
     // 223 rows, worst scene off by 1.9 %
-    row_cost("lambert2", {{WorkTerm::runs, 7506}, {WorkTerm::facing, 3957.3}, {WorkTerm::evaluated, 4442.7}, {WorkTerm::sums, 10869}, {WorkTerm::rays, 587.52}, {WorkTerm::lit, 554.97}, {WorkTerm::ray_tests, 2.9228}, {WorkTerm::kept, 15761}, {WorkTerm::rejected, 213.36}}),
+    row_cost("lambert2", {{WorkTerm::runs, 7021.5}, {WorkTerm::facing, 3618.8}, {WorkTerm::evaluated, 4085.2}, {WorkTerm::sums, 10946}, {WorkTerm::rays, 574.96}, {WorkTerm::lit, 561.21}, {WorkTerm::ray_tests, 7.9675}, {WorkTerm::kept, 15724}, {WorkTerm::rejected, 217.01}}),
     // 223 rows, worst scene off by 3.8 %
-    row_cost("moment", {{WorkTerm::runs, 2207.1}, {WorkTerm::same, 1.2726}, {WorkTerm::facing, 3469.7}, {WorkTerm::behind, 406.65}, {WorkTerm::evaluated, 1657.3}, {WorkTerm::clipped, 8766.3}, {WorkTerm::rays, 585.81}, {WorkTerm::lit, 501.68}, {WorkTerm::ray_tests, 65.778}, {WorkTerm::spared, 8.8309}, {WorkTerm::kept, 14206}, {WorkTerm::rejected, 227.81}}),
+    row_cost("moment", {{WorkTerm::runs, 2022.9}, {WorkTerm::same, 3.4722}, {WorkTerm::facing, 2463.6}, {WorkTerm::behind, 350.22}, {WorkTerm::evaluated, 1619.2}, {WorkTerm::clipped, 9005.1}, {WorkTerm::rays, 590.08}, {WorkTerm::lit, 498.83}, {WorkTerm::ray_tests, 68.822}, {WorkTerm::spared, 7.2598}, {WorkTerm::kept, 13990}, {WorkTerm::rejected, 249.89}}),
     // 223 rows, worst scene off by 2.6 %
-    row_cost("net", {{WorkTerm::runs, 3333.3}, {WorkTerm::facing, 8779.7}, {WorkTerm::far, 1657.4}, {WorkTerm::near, 6570.1}, {WorkTerm::sums, 9835.9}, {WorkTerm::networks, 2864}, {WorkTerm::hidden, 176.06}, {WorkTerm::rays, 463.59}, {WorkTerm::lit, 604.12}, {WorkTerm::ray_tests, 73.757}, {WorkTerm::spared, 20.562}, {WorkTerm::kept, 14678}, {WorkTerm::rejected, 119.51}}),
+    row_cost("net", {{WorkTerm::runs, 3135.6}, {WorkTerm::facing, 7946}, {WorkTerm::far, 1622.1}, {WorkTerm::near, 6057.4}, {WorkTerm::sums, 9912.3}, {WorkTerm::networks, 2788.9}, {WorkTerm::hidden, 177.5}, {WorkTerm::rays, 462.39}, {WorkTerm::lit, 604.18}, {WorkTerm::ray_tests, 77.983}, {WorkTerm::spared, 19.598}, {WorkTerm::kept, 14480}, {WorkTerm::rejected, 137.04}}),
     // 223 rows, worst scene off by 8.2 %
     row_cost("table", {{WorkTerm::row, 704.76}, {WorkTerm::runs, 72.374}, {WorkTerm::same, 4.1168}, {WorkTerm::facing, 5.0736}, {WorkTerm::evaluated, 7.4141}, {WorkTerm::grid_rows, 46.578}}),
 };
 
 // 13 solves, worst off by 0.6 %
-inline constexpr SolverCost kSolverCost{4258.16, 508.243, 23.3454, 18.8267, 1414.55, 1654.4};
+inline constexpr SolverCost kSolverCost{4208.69, 508.134, 23.3494, 18.8248, 1332.06, 1655.1};
 
 inline constexpr std::array<MethodError, 14> kMethodErrors = {{
     // 6 scenes, worst off by a factor 1.48
@@ -71,10 +71,10 @@ inline constexpr std::array<MethodError, 14> kMethodErrors = {{
 inline constexpr double kStopShare = 0.5762;
 
 inline constexpr std::array<MethodCode, 4> kMethodCode = {{
-    {"pairs", 38452},
-    {"table", 8974},
-    {"hemicube", 17062},
-    {"hybrid", 42016},
+    {"pairs", 38840},
+    {"table", 8958},
+    {"hemicube", 17030},
+    {"hybrid", 42464},
 }};
 
 }  // namespace host
