@@ -62,6 +62,7 @@ constexpr uint64_t magnitude(int64_t x) noexcept { return x < 0 ? 0u - uint64_t(
 template <bool wide = kWideRegisters>
 constexpr int64_t round_shift(int64_t x, int n) noexcept {
   expect(n >= 1 && n <= 62 && magnitude(x) < (uint64_t{1} << 63) - (uint64_t{1} << (n - 1)));
+  // Callers see to n: NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
   if (wide) return shift_down(x + (int64_t{1} << (n - 1)) + shift_down(x, 63), n);
   const uint64_t y = (magnitude(x) + (uint64_t{1} << (n - 1))) >> n;
   return x < 0 ? -int64_t(y) : int64_t(y);
