@@ -241,3 +241,29 @@ TEST_CASE("input that vanishes, or ends while it is read: an answer or one sente
     if (status == 0) CHECK(host::read_file(out.string()) == whole);
   }
 }
+
+TEST_CASE(
+    "standard error that is closed or full stops nothing, and an output that is an input is "
+    "refused") {
+  const std::filesystem::path folder = test::scratch("hostile_files_remarks");
+  const std::string program = URAD_PROGRAM, pairs = (folder / "pairs.csv").string(),
+                    factors = (folder / "f.csv").string(), net = (folder / "net.json").string();
+  const std::string text =
+      "id,p,q\nplates,0 0 0;1 0 0;1 1 0;0 1 0,0 0 1;0 1 1;1 1 1;1 0 1\nnone,0 0 0;1 0 0,0 0 1\n";
+  host::write_file_atomically(pairs, text);
+  std::filesystem::copy_file(URAD_SOURCE_DIR "/weights/cube7.json", net);
+  const std::string command = program + " formfactor --method lambert:1 --in " + pairs + " --out ";
+  for (const char* nowhere : {" 2>&-", " 2>/dev/full"}) {
+    CAPTURE(nowhere);
+    std::filesystem::remove(factors);
+    CHECK(test::runs(command + factors + nowhere));
+    CHECK(std::filesystem::exists(factors));
+  }
+  CHECK(test::urad("formfactor --method lambert:1 --in " + pairs + " --out " + pairs).status == 2);
+  CHECK(host::read_file(pairs) == text);
+  const std::string before = host::read_file(net);
+  for (const std::string& work :
+       {"formfactor --method net --in " + pairs, std::string("solve cube7 --method net")})
+    CHECK(test::urad(work + " --net " + net + " --out " + net).status == 2);
+  CHECK(host::read_file(net) == before);
+}

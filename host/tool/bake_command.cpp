@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/output_folder.hpp"
+#include "base/remark.hpp"
 #include "net_option.hpp"
 #include "number_range.hpp"
 #include "pose/pose_table.hpp"
@@ -180,7 +181,7 @@ void run(const Options& options, const Common& common) {
   std::string light, scene_arrays, pose_arrays;
   host::EngineRows rows;
   for (const host::MethodSpec& spec : host::parse_methods(options.methods)) {
-    if (!common.quiet) fmt::print(stderr, "{}: {}\n", options.scene.name, spec.text());
+    if (!common.quiet) host::remark(fmt::format("{}: {}\n", options.scene.name, spec.text()));
     if (spec.name == "exact") {
       report.methods.push_back(exact_result(solver));
       continue;

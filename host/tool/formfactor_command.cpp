@@ -18,6 +18,11 @@ struct Options {
 };
 
 void run(const Options& options, const Common& common) {
+  const auto file = [](const std::string& path) { return path == "-" ? "" : path; };
+  host::expect_different_files({{"--in", file(options.in)},
+                                {"--scene", file(options.scene)},
+                                {"--net", options.net},
+                                {"--out", options.out}});
   const Nets nets(options.net);
   const std::vector<host::MethodSpec> methods = host::parse_methods(options.methods);
   std::string table;

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/nearest_name.hpp"
+#include "base/remark.hpp"
 #include "command.hpp"
 #include "number_range.hpp"
 
@@ -85,24 +86,24 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& wrong) {
-    fmt::print(stderr, "urad: {}\nTry: urad help\n", wrong_usage(app, wrong));
+    host::remark(fmt::format("urad: {}\nTry: urad help\n", wrong_usage(app, wrong)));
     return kWrongUsage;
   } catch (const CLI::OptionNotFound&) {
-    fmt::print(stderr, "urad: help: there is no command \"{}\"\nTry: urad help\n", topic);
+    host::remark(fmt::format("urad: help: there is no command \"{}\"\nTry: urad help\n", topic));
     return kWrongUsage;
   } catch (const host::UsageError& wrong) {
-    fmt::print(stderr, "urad: {}\nTry: urad help\n", wrong.what());
+    host::remark(fmt::format("urad: {}\nTry: urad help\n", wrong.what()));
     return kWrongUsage;
   } catch (const host::Error& error) {
-    fmt::print(stderr, "urad: {}\n", error.what());
+    host::remark(fmt::format("urad: {}\n", error.what()));
     return kFailed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "urad: out of memory: a smaller scene (--subdivide, --patch-size) or fewer threads "
-               "would do\n");
+    host::remark(
+        "urad: out of memory: a smaller scene (--subdivide, --patch-size) or fewer threads would "
+        "do\n");
     return kFailed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "urad: {}\n", error.what());
+    host::remark(fmt::format("urad: {}\n", error.what()));
     return kFailed;
   }
   return 0;

@@ -6,6 +6,7 @@
 
 #include "accuracy/network_trials.hpp"
 #include "base/file.hpp"
+#include "base/remark.hpp"
 #include "command.hpp"
 #include "net_option.hpp"
 #include "number_range.hpp"
@@ -26,7 +27,7 @@ void run(Options& options, const Common& common) {
   request.threads = common.threads;
   if (!common.quiet)
     request.progress = [](int hidden, std::uint64_t seed) {
-      fmt::print(stderr, "{} hidden neurons, seed {}\n", hidden, seed);
+      host::remark(fmt::format("{} hidden neurons, seed {}\n", hidden, seed));
     };
   const auto trials = host::try_networks(request);
   const std::string command =

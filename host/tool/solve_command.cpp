@@ -7,6 +7,7 @@
 #include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/remark.hpp"
 #include "net_option.hpp"
 #include "number_range.hpp"
 #include "report/solve_json.hpp"
@@ -74,6 +75,7 @@ bool all_dark(const host::Scene& scene, const std::vector<host::Vec3>& radiosity
 
 void run(const Options& options, const Common& common) {
   host::expect_different_files({{"SCENE", options.scene.name},
+                                {"--net", options.net},
                                 {"--out", options.out},
                                 {"--rows", options.rows},
                                 {"--report", options.report}});
@@ -121,15 +123,14 @@ void run(const Options& options, const Common& common) {
     const std::string exact =
         goal.against_exact ? fmt::format(" and {:.3g} % of the exact solution", 100 * result.rms)
                            : " one";
-    fmt::print(stderr, "{} by {}: {} shots, B within {:.3g} % rms of the converged{}\n",
-               options.scene.name, spec.text(), result.solution.shots, 100 * result.solution.error,
-               exact);
+    host::remark(fmt::format("{} by {}: {} shots, B within {:.3g} % rms of the converged{}\n",
+                             options.scene.name, spec.text(), result.solution.shots,
+                             100 * result.solution.error, exact));
     if (all_dark(scene, result.solution.radiosity))
-      fmt::print(
-          stderr,
+      host::remark(fmt::format(
           "{}: no light falls on any patch. The lit side of a face is the one from which its "
           "vertices run counter-clockwise: are they turned the other way?\n",
-          options.scene.name);
+          options.scene.name));
   }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/remark.hpp"
+
 namespace host {
 
 Progress::Progress(std::string what, std::size_t total, bool quiet)
@@ -15,7 +17,7 @@ Progress::Progress(std::string what, std::size_t total, bool quiet)
       terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_ && shown_ > 0) fmt::print(stderr, "\r\033[K");
+  if (!quiet_ && terminal_ && shown_ > 0) remark("\r\033[K");
 }
 
 void Progress::add(std::size_t steps) {
@@ -35,10 +37,10 @@ void Progress::show(std::size_t done) {
   const double left = seconds() * double(total_ - done) / double(done);
   if (terminal_) {
     const std::string bar(part * 30 / 100, '#');
-    fmt::print(stderr, "\r{} [{:<30}] {:3} %  {:.0f} s left\033[K", what_, bar, part, left);
+    remark(fmt::format("\r{} [{:<30}] {:3} %  {:.0f} s left\033[K", what_, bar, part, left));
     (void)std::fflush(stderr);  // a bar that is not seen harms nobody
   } else {
-    fmt::print(stderr, "{}: {} %, {:.0f} s left\n", what_, part * 10, left);
+    remark(fmt::format("{}: {} %, {:.0f} s left\n", what_, part * 10, left));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "base/remark.hpp"
 #include "geometry/parse.hpp"
 
 namespace host {
@@ -80,8 +81,8 @@ std::string pairs_table(const CsvTable& pairs, const std::vector<MethodSpec>& sp
     if (failed++ == 0) first = fmt::format("line {}, {}", row.line, bad->status);
   }
   if (failed && !quiet)
-    fmt::print(stderr, "{} of {} rows have no factor by every method; the first: {}\n", failed,
-               rows.size(), first);
+    remark(fmt::format("{} of {} rows have no factor by every method; the first: {}\n", failed,
+                       rows.size(), first));
   return text;
 }
 
